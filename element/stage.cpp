@@ -135,6 +135,13 @@ Stage completed(Stage stage, Room room) {
   return stage;
 }
 
+bool drives_shear(const Stage& stage) {
+  return std::ranges::any_of(stage.constraints, [](const Constraint& constraint) {
+    const bool moves = constraint.way == Constraint::Way::reach || constraint.way == Constraint::Way::cycle;
+    return constraint.place >= k12 && moves && constraint.amount != 0.0;
+  });
+}
+
 double target(const Constraint& constraint, int cycles, double start, double t) {
   switch (constraint.way) {
     case Constraint::Way::hold:

@@ -59,6 +59,9 @@ std::vector<std::string> faults(const Stage& stage, Room room);
 /// faults() must be empty.
 Stage completed(Stage stage, Room room);
 
+/// Whether the stage drives a shear strain or a shear stress away from zero.
+bool drives_shear(const Stage& stage);
+
 /// The value that a constraint asks for at stage time t in [0, 1]. @param start its value at the start of the stage
 double target(const Constraint& constraint, int cycles, double start, double t);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "app/calibrate/script_parameters.hpp"
@@ -94,7 +95,7 @@ ElementSpecification read_test(const Entry& document, const Entry::Member& membe
 }
 
 std::vector<std::string> columns_of_test(const ElementSpecification& test) {
-  return element_columns(test.room, names_of_columns<CellDiagnostics>(), false);
+  return element_columns(form_of(test), names_of_columns<CellDiagnostics>());
 }
 
 /// Reads one target: points of the laboratory's table, or one number.
@@ -180,6 +181,21 @@ std::optional<double> value_along(const std::vector<std::vector<double>>& rows, 
   return {};
 }
 
+/// Each script has each parameter: a test without one would stay as it is through the whole search.
+void check_scripts(const Entry& parameters, const std::vector<ElementSpecification>& tests, Faults& faults) {
+  std::set<std::string> seen;
+  for (const ElementSpecification& test : tests) {
+    if (test.cells.empty() || !seen.insert(test.cells.front().script).second) continue;
+    for (const Entry::Member& member : parameters.members)
+      if (const std::string fault = parameter_fault(test.cells.front().script, member.key); !fault.empty())
+        faults.push_back(
+            {member.value.file, member.line,
+             fmt::format("parameter '{}': {}: {}", member.key, test.cells.front().script_file, fault)});
+  }
+}
+
+}  // namespace
+
 std::optional<double> value_of(const TargetPoint& point, const std::vector<std::string>& columns,
                                const std::vector<std::vector<double>>& all_rows) {
   const auto column = [&](const std::string& name) {
@@ -195,8 +211,6 @@ std::optional<double> value_of(const TargetPoint& point, const std::vector<std::
   if (point.where == TargetPoint::Where::along) return value_along(rows, column(point.along), y, point.at);
   return (*std::ranges::max_element(rows, {}, [y](const auto& row) { return row[y]; }))[y];
 }
-
-}  // namespace
 
 double Parameter::place_of(double value) const {
   return linear ? (value - low) / (high - low) : logarithm(value / low) / logarithm(high / low);
@@ -242,16 +256,8 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
     }
     if (calibration.tests.empty()) top.fault("tests", "tests: at least one is needed");
   }
-  for (const ElementSpecification& test : calibration.tests) {
-    if (test.cells.empty()) continue;
-    if (const Entry* const parameters = top.find("parameters"))
-      for (const Entry::Member& member : parameters->members)
-        if (const std::string fault = parameter_fault(test.cells.front().script, member.key); !fault.empty())
-          faults.push_back(
-              {member.value.file, member.line,
-               fmt::format("parameter '{}': {}: {}", member.key, test.cells.front().script_file, fault)});
-    break;
-  }
+  if (const Entry* const parameters = top.find("parameters"))
+    check_scripts(*parameters, calibration.tests, faults);
   const Entry* const targets = top.require("targets", "a list of target values of the tests");
   if (targets != nullptr && faults.empty())
     for (std::size_t k = 0; k < targets->items.size(); ++k)
@@ -271,7 +277,7 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
       for (const Grain& grain : cell.packing.grains)
         all += fmt::format("{} {} {}\n", grain.position.x(), grain.position.y(), grain.radius);
     }
-  calibration.identity = name_of(std::as_bytes(std::span(all))).text();
+  calibration.identity = polargrain::name_of(std::as_bytes(std::span(all))).text();
   return calibration;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,11 @@ struct Calibration {
 Calibration read_calibration(const std::filesystem::path& laboratory, const std::filesystem::path& file,
                              const std::vector<std::string>& settings, const ScriptRules& scripts,
                              const PackingsOf& packings_of);
+
+/// The value that a test has at a point; nothing where it does not come there. @param columns of the test
+/// @param rows of one packing
+std::optional<double> value_of(const TargetPoint& point, const std::vector<std::string>& columns,
+                               const std::vector<std::vector<double>>& rows);
 
 /// The differences of the curves from the points, over their errors: of the mean over the packings. A packing that did
 /// not come as far as a point counts as `kMissed` errors there.

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "app/calibrate/calibration_page.hpp"
+#include "app/calibrate/doubts_of_curves.hpp"
 #include "app/calibrate/script_parameters.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/commands/pack.hpp"
 #include "common/csv_table.hpp"
 #include "common/packing_file.hpp"
+#include "common/regular_file.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/pool/private_directory.hpp"
@@ -102,6 +104,16 @@ std::vector<ElementResult> run_tests(std::vector<ElementSpecification> tests, co
   }
 }
 
+/// best.in; of a test with another script best_TEST.in too.
+void write_scripts(const Calibration& calibration, const std::vector<ElementSpecification>& tests,
+                   const std::filesystem::path& directory) {
+  const std::string& first = tests.front().cells.front().script;
+  write_file(directory / "best.in", first);
+  for (std::size_t k = 1; k < tests.size(); ++k)
+    if (const std::string& script = tests[k].cells.front().script; script != first)
+      write_file(directory / fmt::format("best_{}.in", calibration.test_names[k]), script);
+}
+
 /// In one line, for a cell of a table.
 std::string in_one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
@@ -128,7 +140,11 @@ Answer evaluate(const Calibration& calibration, const std::vector<double>& value
     curves.emplace_back();
     for (const ElementCurve& curve : result.curves) curves.back().push_back(curve.rows);
   }
-  if (first) tell_missed(calibration, missed_points(calibration.points, columns, curves));
+  if (first) {
+    tell_missed(calibration, missed_points(calibration.points, columns, curves));
+    for (const std::string& doubt : doubts_of_curves(calibration, columns, curves))
+      tell(stderr, "warning: {}\n", doubt);
+  }
   return {differences(calibration.points, columns, curves)};
 }
 
@@ -191,6 +207,19 @@ std::string table_of(const Calibration& calibration, const CalibrationResult& re
   return text;
 }
 
+/// The files of the folder have usual names, which those that it reads may have too. @throws InputError
+void check_folder(const CalibrateOptions& options) {
+  std::vector<std::filesystem::path> inputs =
+      files_read_with(coupler::DocumentKind::calibration, options.specification, options.settings);
+  inputs.push_back(options.laboratory);
+  for (const char* const name :
+       {"record.csv", "parameters.csv", "profile.csv", "best.in", "calibration.html"}) {
+    const std::string reason = why_not_over(options.directory / name, inputs);
+    if (!reason.empty())
+      throw InputError({(options.directory / name).string(), 0, reason + ", or another folder with -o"});
+  }
+}
+
 /// All faults are found before the first packing is made.
 Calibration read_and_make_packings(const CalibrateOptions& options, const PackingTools& tools) {
   if (options.specification.extension() == ".csv" && options.laboratory.extension() != ".csv")
@@ -203,6 +232,7 @@ Calibration read_and_make_packings(const CalibrateOptions& options, const Packin
                             packings_of);
   };
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
+  check_folder(options);
   return read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);
@@ -256,7 +286,7 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
   const std::vector<ElementResult> best = run_tests(tests, options, tools);
   write_file(options.directory / "parameters.csv", table_of(calibration, result));
   if (!result.profile.empty()) write_file(options.directory / "profile.csv", profile_of(calibration, result));
-  write_file(options.directory / "best.in", tests.front().cells.front().script);
+  write_scripts(calibration, tests, options.directory);
   write_file(options.directory / "calibration.html", calibration_page(calibration, result, best));
   tell(stdout, "{}", calibration_summary(calibration, result));
   return result.converged ? 0 : 1;

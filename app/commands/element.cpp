@@ -7,13 +7,16 @@
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/element/element_page.hpp"
+#include "app/element/element_remarks.hpp"
 #include "app/element/envelope.hpp"
 #include "app/element/run_element.hpp"
 #include "app/element/undrained_figures.hpp"
 #include "app/pack/made_packings.hpp"
-#include "common/regular_file.hpp"
+#include "app/remarks/remarks.hpp"
+#include "common/error.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
+#include "coupler/case/case_identity.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/pool/private_directory.hpp"
 
@@ -97,9 +100,10 @@ struct Tests {
   std::vector<double> pressures;  ///< Pa
   std::vector<ElementResult> results;
   std::vector<ElementMean> means;
-  Envelopes envelopes = {};  ///< under several pressures
-  /// Under several pressures all tables say which, and there is an envelope.
+  Envelopes envelopes = {};  ///< under several pressures, of tests that may bring their material to failure
+  /// Under several pressures all tables say which.
   [[nodiscard]] bool are_several() const { return pressures.size() > 1; }
+  [[nodiscard]] bool has_envelope() const { return !envelopes.at_states.empty(); }
 };
 
 /// A document for each pressure of a list.
@@ -171,7 +175,8 @@ std::string summary_of(const Tests& tests) {
     if (tests.are_several()) text += fmt::format("under {:.4g} kPa\n", 1e-3 * tests.pressures[k]);
     text += summary_of(tests.results[k]) + undrained_summary(tests.results[k]);
   }
-  if (tests.are_several()) text += envelope_summary(tests.envelopes);
+  if (tests.are_several())
+    text += tests.has_envelope() ? envelope_summary(tests.envelopes) : why_no_envelope();
   return text;
 }
 
@@ -190,6 +195,23 @@ bool tell_failures(const Tests& tests) {
   return is_whole;
 }
 
+/// Writes a companion of the table. If its text is empty, the file of an older run is removed: it would tell of other curves.
+void write_companion(const std::filesystem::path& file, const std::string& text) {
+  std::error_code error;
+  if (!text.empty())
+    write_file(file, text);
+  else if (std::filesystem::remove(file, error); error)
+    throw RunError(fmt::format("{} of an older run cannot be removed: {}", file.string(), error.message()));
+}
+
+void write_files(const std::filesystem::path& output, const std::string& title, const Tests& tests) {
+  write_file(with_ending(output, ".csv"), table_of(tests));
+  write_companion(with_ending(output, "_mean.csv"), table_of_means(tests));
+  write_companion(with_ending(output, "_envelope.csv"),
+                  tests.has_envelope() ? envelope_table(tests.envelopes) : "");
+  write_file(with_ending(output, ".html"), page_of(title.empty() ? "Element test" : title, tests));
+}
+
 int run_test(const ElementOptions& options, const PackingTools& tools) {
   const coupler::Entry document = document_of(options);
   const std::filesystem::path directory = is_yaml(options.files.front())
@@ -205,28 +227,25 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
   };
   // All faults are found before the first packing is made.
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
-  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv", ".html"}) {
-    if (const std::string reason = why_no_output(with_ending(options.output, ending)); !reason.empty())
-      throw InputError({"", 0, fmt::format("-o {}: {}", options.output.string(), reason)});
-  }
+  std::vector<std::filesystem::path> inputs = coupler::files_named_in(document, directory);
+  inputs.emplace_back(document.file);
+  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv", ".html"})
+    check_output("-o", with_ending(options.output, ending), inputs);
   const std::vector<ElementSpecification> specifications = read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);
     });
   });
+  if (!options.quiet)
+    for (const Remark& remark : remarks_on_element(document, specifications))
+      tell(stdout, "{}\n", line_of(remark));
   Tests tests;
   for (const ElementSpecification& one : specifications) tests.pressures.push_back(one.pressure);
   tests.results = run_elements(specifications, options.workers, options.scripts.trusted);
   for (const ElementResult& result : tests.results) tests.means.push_back(mean_of(result.curves));
-  write_file(with_ending(options.output, ".csv"), table_of(tests));
-  if (const std::string means = table_of_means(tests); !means.empty())
-    write_file(with_ending(options.output, "_mean.csv"), means);
-  if (tests.are_several()) {
+  if (tests.are_several() && can_fail(specifications.front()))
     tests.envelopes = envelopes_of(tests.results, tests.pressures);
-    write_file(with_ending(options.output, "_envelope.csv"), envelope_table(tests.envelopes));
-  }
-  const std::string& title = specifications.front().title;
-  write_file(with_ending(options.output, ".html"), page_of(title.empty() ? "Element test" : title, tests));
+  write_files(options.output, specifications.front().title, tests);
   if (!options.quiet) tell(stdout, "{}", summary_of(tests));
   return tell_failures(tests) ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/commands/command.hpp"
+#include "app/commands/independent_seeds.hpp"
 #include "app/layer/measure_interface.hpp"
 #include "common/error.hpp"
 
@@ -55,6 +56,7 @@ Command add_interface(CLI::App& program, const Grains& grains) {
   return {&command, [options, &tools = grains.packing_tools] {
             if (options->seeds.size() < 2)
               throw InputError({"--seeds", 0, "one box does not show the scatter; give two seeds or more"});
+            check_independent_seeds(options->seeds, "--seeds");
             return measure_interface(*options, tools);
           }};
 }

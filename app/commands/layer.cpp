@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/commands/command.hpp"
+#include "app/commands/independent_seeds.hpp"
 #include "app/layer/measure.hpp"
 #include "common/error.hpp"
 
@@ -97,6 +98,8 @@ Command add_layer(CLI::App& program, const Grains& grains) {
             check_candidates(options->plastic_lengths, "--lp");
             if (options->seeds.size() < 2)
               throw InputError({"--seeds", 0, "one layer does not show the scatter; give two seeds or more"});
+            check_independent_seeds(options->seeds, "--seeds");
+            check_independent_seeds(options->cell_seeds, "--cell-seeds");
             return measure_layer(*options, tools);
           }};
 }

@@ -18,8 +18,8 @@ using element::tells_stress;
 
 }  // namespace
 
-std::vector<std::string> element_columns(element::Room room, const std::vector<std::string>& fields,
-                                         bool has_void_ratio) {
+std::vector<std::string> element_columns(const TableForm& form, const std::vector<std::string>& fields) {
+  const element::Room room = form.room;
   std::vector<std::string> names{"stage", "row", "axial_strain", "volume_strain"};
   for (int place = 0; place < 6; ++place)
     if (can_strain(room, place))
@@ -32,13 +32,13 @@ std::vector<std::string> element_columns(element::Room room, const std::vector<s
   if (room != element::Room::discs) names.emplace_back("b");
   for (const char* const name : {"pore_pressure_Pa", "residual", "steps", "evaluations", "jumps"})
     names.emplace_back(name);
-  if (has_void_ratio) names.emplace_back("void_ratio");
+  if (form.void_ratio) names.emplace_back("void_ratio");
   names.insert(names.end(), fields.begin(), fields.end());
   return names;
 }
 
-std::vector<double> element_values(const element::Row& row, element::Room room,
-                                   const std::optional<double>& void_ratio) {
+std::vector<double> element_values(const TableForm& form, const element::Row& row) {
+  const element::Room room = form.room;
   std::vector<double> values{static_cast<double>(row.stage), static_cast<double>(row.number),
                              0.0 - row.strain(element::k22), row.volume - 1.0};
   for (int place = 0; place < 6; ++place)
@@ -46,14 +46,15 @@ std::vector<double> element_values(const element::Row& row, element::Room room,
   for (int place = 0; place < 6; ++place)
     if (tells_stress(room, place)) values.push_back(row.stress(place));
   const element::StressMeasures measures = element::measures_of(row.stress, room);
+  const double q = form.drives_shear ? std::abs(measures.q) : measures.q;
   for (const double value :
-       {measures.p, measures.q, measures.ratio, measures.friction_angle * 180.0 / std::numbers::pi})
+       {measures.p, q, measures.ratio, measures.friction_angle * 180.0 / std::numbers::pi})
     values.push_back(value);
   if (room != element::Room::discs) values.push_back(measures.b);
   values.push_back(row.pore_pressure);
   values.push_back(row.residual);
   for (const int count : {row.steps, row.evaluations, row.jumps}) values.push_back(count);
-  if (void_ratio) values.push_back((1.0 + *void_ratio) * row.total_volume - 1.0);
+  if (form.void_ratio) values.push_back((1.0 + *form.void_ratio) * row.total_volume - 1.0);
   values.insert(values.end(), row.fields.begin(), row.fields.end());
   return values;
 }

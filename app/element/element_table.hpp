@@ -15,13 +15,20 @@ struct ElementCurve {
   std::string failure;  ///< empty: the test came to its end
 };
 
-/// The names of the columns, with units where they have one (s11_Pa). @param fields of the material
-std::vector<std::string> element_columns(element::Room room, const std::vector<std::string>& fields,
-                                         bool has_void_ratio);
+/// The choices that decide which columns a table has. Titles and values are both made from it.
+struct TableForm {
+  element::Room room = element::Room::discs;
+  std::optional<double> void_ratio;  ///< at the start of the test, for materials that do not report one
+  /// Some stage drives a shear. Axis and layers then share the principal stresses, and which of the two normal stresses is larger is
+  /// an accident of the packing: q gets no sign.
+  bool drives_shear = false;
+};
 
-/// The values of these columns. @param void_ratio at the start of the test, for materials that do not report one
-std::vector<double> element_values(const element::Row& row, element::Room room,
-                                   const std::optional<double>& void_ratio);
+/// The names of the columns, with units where they have one (s11_Pa). @param fields of the material
+std::vector<std::string> element_columns(const TableForm& form, const std::vector<std::string>& fields);
+
+/// The values of these columns.
+std::vector<double> element_values(const TableForm& form, const element::Row& row);
 
 /// Mean over the specimens, row by row, as far as at least two of them came.
 struct ElementMean {

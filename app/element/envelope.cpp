@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "app/commands/csv_file.hpp"
 #include "app/page/page.hpp"
@@ -45,8 +46,41 @@ const std::vector<double>& row_at(const ElementResult& result, const ElementCurv
   return *std::ranges::max_element(curve.rows, {}, angle);
 }
 
-const char* name_of(FailureState state) {
-  return state == FailureState::peak ? "peak" : "end";
+/// Whether the largest angle is that of the last row. A plateau is as good as a peak: the tolerance of stresses makes its angles
+/// differ by less than a thousandth.
+bool rises_to_end(const ElementResult& result, const ElementCurve& curve) {
+  constexpr double kPlateau = 1e-3;
+  if (&row_at(result, curve, FailureState::peak) != &curve.rows.back()) return false;
+  const auto column = static_cast<std::size_t>(std::ranges::find(result.columns, "friction_angle_deg") -
+                                               result.columns.begin());
+  // The last tenth of the rows is left out: many rows rise by less than that each.
+  const std::size_t left_out = std::max<std::size_t>(1, curve.rows.size() / 10);
+  double before = 0.0;
+  for (std::size_t k = 0; k + left_out < curve.rows.size(); ++k)
+    before = std::fmax(before, curve.rows[k][column]);
+  return curve.rows.back()[column] > (1.0 + kPlateau) * before;
+}
+
+const char* state_name(FailureState state, bool has_peak) {
+  if (state == FailureState::end) return "end";
+  return has_peak ? "peak" : "largest";
+}
+
+bool has_peaks(const EnvelopeOfSpecimen& envelope) {
+  return std::ranges::none_of(envelope.without_peak, [](bool missing) { return missing; });
+}
+
+/// A line for each test without a peak.
+std::vector<std::string> lines_without_peak(const Envelopes& all) {
+  std::vector<std::string> lines;
+  for (const auto& [state, envelopes] : all.at_states)
+    for (const EnvelopeOfSpecimen& envelope : envelopes)
+      for (std::size_t k = 0; k < envelope.circles.size(); ++k)
+        if (envelope.without_peak[k])
+          lines.push_back(
+              fmt::format("{}: at {:.4g} kPa the largest angle is the last row: no peak was reached",
+                          envelope.name, 1e-3 * envelope.pressures[k]));
+  return lines;
 }
 
 struct EnvelopeLines {
@@ -141,6 +175,7 @@ std::vector<EnvelopeOfSpecimen> envelopes_at(std::span<const ElementResult> resu
       if (!curve.failure.empty() || curve.rows.empty()) continue;
       envelope.pressures.push_back(pressures[k]);
       envelope.circles.push_back(circle_of(results[k].columns, row_at(results[k], curve, state)));
+      envelope.without_peak.push_back(state == FailureState::peak && rises_to_end(results[k], curve));
     }
     envelope.line = failure_line(envelope.circles);
   }
@@ -148,6 +183,18 @@ std::vector<EnvelopeOfSpecimen> envelopes_at(std::span<const ElementResult> resu
 }
 
 }  // namespace
+
+bool can_fail(const ElementSpecification& specification) {
+  static const std::set<std::string> kNoFailure{"consolidation", "isotropic", "oedometer",
+                                                "radial_unloading"};
+  return std::ranges::any_of(specification.stages,
+                             [](const element::Stage& stage) { return !kNoFailure.contains(stage.name); });
+}
+
+std::string why_no_envelope() {
+  return "no envelope: isotropic and oedometer tests and radial unloading do not bring a material to failure; a line along "
+         "their circles would be no strength\n";
+}
 
 Envelopes envelopes_of(std::span<const ElementResult> results, std::span<const double> pressures) {
   Envelopes envelopes;
@@ -162,8 +209,8 @@ std::string envelope_summary(const Envelopes& all) {
                                  "", "angle, deg", "cohesion, kPa", "off, kPa");
   for (const auto& [state, envelopes] : all.at_states) {
     for (const EnvelopeOfSpecimen& envelope : envelopes) {
-      const std::string name =
-          fmt::format("{}, {} of {}", name_of(state), envelope.circles.size(), envelope.name);
+      const std::string name = fmt::format("{}, {} of {}", state_name(state, has_peaks(envelope)),
+                                           envelope.circles.size(), envelope.name);
       if (envelope.line)
         text +=
             fmt::format("{:<32} {:>16} {:>18} {:>14}\n", name,
@@ -174,13 +221,15 @@ std::string envelope_summary(const Envelopes& all) {
     }
     const auto [angles, cohesions] = lines_of(envelopes);
     if (angles.size() < 2) continue;
+    const bool has_peak = std::ranges::all_of(envelopes, has_peaks);
     const auto [angle, half_angle] = mean_and_interval(angles);
     const auto [cohesion, half_cohesion] = mean_and_interval(cohesions);
     text += fmt::format("{:<32} {:>16} {:>18}\n",
-                        fmt::format("{}, mean of {}, 95 %", name_of(state), angles.size()),
+                        fmt::format("{}, mean of {}, 95 %", state_name(state, has_peak), angles.size()),
                         fmt::format("{} +- {:.2f}", rounded(angle, 2), half_angle),
                         fmt::format("{} +- {:.3f}", rounded(1e-3 * cohesion, 3), 1e-3 * half_cohesion));
   }
+  for (const std::string& line : lines_without_peak(all)) text += line + '\n';
   return text;
 }
 
@@ -191,10 +240,10 @@ std::string envelope_table(const Envelopes& all) {
     for (const EnvelopeOfSpecimen& envelope : envelopes)
       for (std::size_t k = 0; k < envelope.circles.size(); ++k) {
         const FailureLine line = envelope.line.value_or(FailureLine{NAN, NAN, NAN});
-        text +=
-            csv_row({envelope.name, name_of(state), exact(envelope.pressures[k]),
-                     exact(envelope.circles[k].largest), exact(envelope.circles[k].least),
-                     exact(line.friction_angle / kDegreeOfEnvelope), exact(line.cohesion), exact(line.off)});
+        text += csv_row({envelope.name, state_name(state, !envelope.without_peak[k]),
+                         exact(envelope.pressures[k]), exact(envelope.circles[k].largest),
+                         exact(envelope.circles[k].least), exact(line.friction_angle / kDegreeOfEnvelope),
+                         exact(line.cohesion), exact(line.off)});
       }
   return text;
 }
@@ -217,9 +266,12 @@ std::string envelope_charts(const Envelopes& all) {
                                                 rounded(1e-3 * envelope.line->cohesion, 2)),
                                     *envelope.line, largest));
     }
-    html += fmt::format("<h2>Mohr's circles at the {}</h2>\n", name_of(state)) +
+    const bool has_peak = std::ranges::all_of(envelopes, has_peaks);
+    html += fmt::format("<h2>Mohr's circles at the {}{}</h2>\n", state_name(state, has_peak),
+                        state == FailureState::peak && !has_peak ? " angle" : "") +
             chart({.title = "effective normal stress, kPa"}, {.title = "shear stress, kPa"}, series, true);
   }
+  for (const std::string& line : lines_without_peak(all)) html += fmt::format("<p>{}</p>\n", escaped(line));
   return html;
 }
 

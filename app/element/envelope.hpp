@@ -34,6 +34,7 @@ struct EnvelopeOfSpecimen {
   std::string name;
   std::vector<double> pressures;  ///< of the tests that came to their end, Pa
   std::vector<StressCircle> circles;
+  std::vector<bool> without_peak;  ///< of each circle: whether the angle still rises at the last row
   std::optional<FailureLine> line = {};
 };
 
@@ -47,6 +48,12 @@ struct Envelopes {
   std::size_t pressures = 0;
   std::vector<std::pair<FailureState, std::vector<EnvelopeOfSpecimen>>> at_states;
 };
+
+/// Whether a test may bring its material to failure. Isotropic and oedometer tests and radial unloading do not: a line along their
+/// circles is no strength.
+bool can_fail(const ElementSpecification& specification);
+/// The reason in words, for the terminal.
+std::string why_no_envelope();
 
 /// @param results of one specification under these pressures
 Envelopes envelopes_of(std::span<const ElementResult> results, std::span<const double> pressures);

@@ -38,6 +38,31 @@ std::string unique_name(const std::string& file, const std::vector<std::string>&
   return name;
 }
 
+bool is_same_grain(const Grain& one, const Grain& other) {
+  return one.position == other.position && one.height == other.height && one.radius == other.radius &&
+         one.mass == other.mass;
+}
+
+/// Whether two packings are copies: the same grains at the same places of the same box.
+bool are_copies(const Packing& one, const Packing& other) {
+  return one.box == other.box && one.thickness == other.thickness &&
+         std::ranges::equal(one.grains, other.grains, is_same_grain);
+}
+
+/// A copy would count as a further sample, and the interval of the mean would be too narrow.
+void check_independence(const ElementSpecification& specification, const CellDefinition& cell, Section& top) {
+  for (const CellDefinition& before : specification.cells) {
+    if (!are_copies(before.packing, cell.packing)) continue;
+    top.fault(
+        "packing",
+        fmt::format("packing: {} has the grains of {}; the two are no independent samples, and the "
+                    "interval of their mean would be too narrow. Name each packing once; make others with "
+                    "another seed",
+                    cell.name, before.name));
+    return;
+  }
+}
+
 /// Cells of all packings under one script. The top section asks for what a definition reads, so that finish() knows it.
 void read_cells(const Entry& document, Section& top, ElementSpecification& specification, Faults& faults,
                 const coupler::CaseFiles& files) {
@@ -64,6 +89,7 @@ void read_cells(const Entry& document, Section& top, ElementSpecification& speci
       top.fault("packing", fmt::format("packing: {} has dimension {}, {} has {}; one test is of one kind",
                                        cell.name, cell.packing.dimension, specification.names.front(),
                                        specification.cells.front().packing.dimension));
+    if (found.empty()) check_independence(specification, cell, top);
     specification.cells.push_back(std::move(cell));
   }
   for (const char* const key :
@@ -90,6 +116,18 @@ void read_material(const Entry& entry, ElementSpecification& specification, Faul
   if (!specification.material->needs_workers())
     specification.room = coupler::room_of(*specification.material->make(nullptr));
   if (!specification.material->knows_s33()) specification.room = element::Room::discs;
+}
+
+/// Of a law. Grains have a void ratio of their own.
+void read_void_ratio(Section& top, ElementSpecification& specification) {
+  if (top.find("void_ratio") == nullptr) return;
+  if (top.find("material") == nullptr)
+    top.fault(
+        "void_ratio",
+        "void_ratio: a packing has its own, and the table gives it (column void_ratio); leave the key out. For "
+        "packings of this void ratio write packing: {specification: PACK.yaml, seeds: [1, 2, 3]}");
+  else
+    specification.void_ratio = top.quantity("void_ratio", Dimension::number, Limit::positive);
 }
 
 void read_accuracy(Section& top, element::Accuracy& accuracy) {
@@ -141,6 +179,11 @@ void read_stages(Section& top, ElementSpecification& specification, Faults& faul
 
 }  // namespace
 
+TableForm form_of(const ElementSpecification& specification) {
+  return {specification.room, specification.void_ratio,
+          std::ranges::any_of(specification.stages, element::drives_shear)};
+}
+
 ElementSpecification read_element_specification(const Entry& document, const std::filesystem::path& directory,
                                                 const ScriptRules& scripts) {
   Faults faults;
@@ -155,8 +198,7 @@ ElementSpecification read_element_specification(const Entry& document, const std
     read_cells(document, top, specification, faults, files);
   specification.pressure = read_pressure(top, "pressure", Limit::positive);
   specification.accuracy.pressure = specification.pressure;
-  if (top.find("void_ratio") != nullptr)
-    specification.void_ratio = top.quantity("void_ratio", Dimension::number, Limit::positive);
+  read_void_ratio(top, specification);
   read_accuracy(top, specification.accuracy);
   read_stages(top, specification, faults);
   top.finish();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/element/element_table.hpp"
 #include "common/cell.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/material_model.hpp"
@@ -27,6 +28,9 @@ struct ElementSpecification {
   element::Accuracy accuracy;
   std::vector<element::Stage> stages;  ///< completed; the first is the consolidation
 };
+
+/// The form of the tables of a test.
+TableForm form_of(const ElementSpecification& specification);
 
 /// Reads and checks the specification of a test (docs/element_tests.md).
 /// @param document as loaded, settings put in @param directory of the file: where files are looked for

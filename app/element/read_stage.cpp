@@ -49,23 +49,42 @@ double read_strain(Section& section, const std::string& key) {
   return strain;
 }
 
+/// A change of a length over it. A plain 0.5 was rather meant as half a per cent.
+/// @param shortening its sign where the length becomes shorter
+double read_change_of_length(Section& section, const std::string& key, double shortening) {
+  constexpr double kPlainStrain = 0.5;
+  const double strain = read_strain(section, key);
+  const Entry* const entry = section.find(key);
+  if (entry == nullptr || !coupler::parse_quantity(entry->text, Dimension::number)) return strain;
+  if (std::abs(strain) > kLargestStrain) return strain;  // told
+  if (std::abs(strain) >= kPlainStrain && coupler::is_plain_number(entry->text))
+    section.fault(key, fmt::format("{}: {} is {:.6g} %? Write '{} %', or '{:.6g} %' if that is meant", key,
+                                   entry->text, 100.0 * strain, entry->text, 100.0 * strain));
+  else if (shortening * strain >= 1.0)
+    section.fault(key, fmt::format("{}: {} leaves nothing of the length", key, entry->text));
+  return strain;
+}
+
 /// The drive of a test along an axis. @param strain, stress the names of its keys
 element::Drive read_drive(Section& section, const std::string& strain, const std::string& stress) {
   element::Drive drive;
+  const auto read_amount = [&](const std::string& key) {
+    return strain == "axial_strain" ? read_change_of_length(section, key, 1.0) : read_strain(section, key);
+  };
   if (section.find("cycles") != nullptr) {
     drive.cycles = section.whole("cycles", 1);
     const Entry* const amplitude = section.require("amplitude", "a strain (0.1 %) or a stress (20 kPa)");
     if (amplitude == nullptr) return drive;
     drive.is_stress = !coupler::parse_quantity(amplitude->text, Dimension::number).has_value();
-    drive.amount = drive.is_stress ? read_pressure(section, "amplitude", Limit::positive)
-                                   : read_strain(section, "amplitude");
+    drive.amount =
+        drive.is_stress ? read_pressure(section, "amplitude", Limit::positive) : read_amount("amplitude");
     return drive;
   }
   drive.is_stress = first_of(section, stress, strain);
   if (drive.is_stress)
     drive.amount = read_pressure(section, stress, Limit::any);
   else
-    drive.amount = section.find(strain) != nullptr ? read_strain(section, strain) : kStrain;
+    drive.amount = section.find(strain) != nullptr ? read_amount(strain) : kStrain;
   return drive;
 }
 
@@ -124,8 +143,11 @@ element::Stage read_named(Section& section, element::Room room) {
 Constraint aimed(Section& section, const std::string& key, Constraint made, double sign) {
   if (is_word(section.find(key), "hold")) return made;
   made.way = Way::reach;
-  made.amount = sign * (made.kind == Constraint::Kind::stress ? read_pressure(section, key, Limit::any)
-                                                              : read_strain(section, key));
+  if (made.kind == Constraint::Kind::stress)
+    made.amount = sign * read_pressure(section, key, Limit::any);
+  else
+    made.amount = sign * (made.place <= element::k33 ? read_change_of_length(section, key, -1.0)
+                                                     : read_strain(section, key));
   return made;
 }
 

@@ -13,6 +13,7 @@
 #include "coupler/points/cell_point.hpp"
 #include "coupler/points/law_point.hpp"
 #include "coupler/pool/private_directory.hpp"
+#include "element/measures.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -41,14 +42,29 @@ class WorkingPool {
   std::optional<Pool> pool_;
 };
 
+/// The advice where grains did not come from the pressure they were made under to that of the test; empty: that is not why the test
+/// ended.
+std::string advice_on_pressure(const element::Outcome& outcome, const ElementSpecification& specification) {
+  constexpr double kFar = 2.0;
+  if (outcome.failure.empty() || specification.cells.empty()) return {};
+  if (outcome.rows.empty() || outcome.rows.back().stage > 0) return {};
+  const double made = element::measures_of(outcome.rows.front().stress, specification.room).p;
+  const double asked = specification.pressure;
+  if (made < kFar * asked && asked < kFar * made) return {};
+  return fmt::format(
+      "; the packing was made under {:.4g} kPa: settle it under the pressure of the test, polargrain pack --settle PACKING "
+      "SCRIPT -o NEW.h5 --set pressure='{:.4g} kPa'",
+      1e-3 * made, 1e-3 * asked);
+}
+
 ElementCurve curve_of(const std::string& name, element::MaterialPoint& point,
                       const ElementSpecification& specification) {
-  element::Outcome outcome = follow(point, specification.stages, specification.accuracy);
+  const element::Outcome outcome = follow(point, specification.stages, specification.accuracy);
   ElementCurve curve;
   curve.name = name;
-  curve.failure = std::move(outcome.failure);
-  for (const element::Row& row : outcome.rows)
-    curve.rows.push_back(element_values(row, specification.room, specification.void_ratio));
+  curve.failure = outcome.failure + advice_on_pressure(outcome, specification);
+  const TableForm form = form_of(specification);
+  for (const element::Row& row : outcome.rows) curve.rows.push_back(element_values(form, row));
   return curve;
 }
 
@@ -91,8 +107,7 @@ ElementResult run_material(const ElementSpecification& specification, int worker
   {
     coupler::LawPoint point(specification.material->make(asks_cells ? &working->pool() : nullptr),
                             asks_cells ? std::nullopt : std::optional(specification.pressure));
-    result.columns =
-        element_columns(specification.room, point.field_names(), specification.void_ratio.has_value());
+    result.columns = element_columns(form_of(specification), point.field_names());
     result.curves.push_back(curve_of(specification.names.front(), point, specification));
   }
   if (working) working->done();
@@ -141,7 +156,7 @@ std::vector<ElementResult> run_elements(std::span<const ElementSpecification> sp
       results[k] = run_material(specification, workers, trust_scripts);
       continue;
     }
-    results[k].columns = element_columns(specification.room, names_of_columns<CellDiagnostics>(), false);
+    results[k].columns = element_columns(form_of(specification), names_of_columns<CellDiagnostics>());
     results[k].curves.resize(specification.cells.size());
     for (std::size_t packing = 0; packing < specification.cells.size(); ++packing)
       of_cells.push_back({&specification, packing, &results[k].curves[packing]});

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/mean_and_interval.hpp"
 
@@ -15,6 +16,17 @@ namespace {
 
 /// Of the mean stress at the start of the stage.
 constexpr double kShare = 0.01;
+
+/// Lines on extremes that the rows are too few to see; empty without one.
+std::string lines_on_rows(const std::string& name, const UndrainedFigures& figures) {
+  std::string text;
+  for (const auto& [falls, what] : {std::pair{figures.largest_in_first_row, "largest u"},
+                                    std::pair{figures.least_in_first_row, "least p'"}})
+    if (falls)
+      text += fmt::format(
+          "{}: the {} falls into the first row; the rows are too few to see it: raise 'rows'\n", name, what);
+  return text;
+}
 
 }  // namespace
 
@@ -35,19 +47,25 @@ UndrainedFigures undrained_figures(const ElementResult& result, const ElementCur
   double least = HUGE_VAL;
   double risen = 0.0;  // above the least, behind it
   for (const std::vector<double>& row : curve.rows) {
+    if (value(row, "stage") > stage) break;
     const double p = value(row, "p_Pa");
-    if (value(row, "stage") != stage || value(row, "row") == 0.0) {
-      if (value(row, "stage") <= stage) start = p;
-      continue;
+    const double pore_pressure = value(row, "pore_pressure_Pa");
+    // All that comes before the stage ends in its start.
+    const bool is_before = value(row, "stage") < stage || value(row, "row") == 0.0;
+    const bool is_first = value(row, "row") == 1.0;
+    if (is_before) start = p;
+    if (is_before || pore_pressure > figures.largest_pore_pressure) {
+      figures.largest_pore_pressure = pore_pressure;
+      figures.largest_in_first_row = !is_before && is_first;
     }
-    figures.largest_pore_pressure = std::max(figures.largest_pore_pressure, value(row, "pore_pressure_Pa"));
-    if (p < least) {
+    if (is_before || p < least) {
       least = p;
       risen = 0.0;
       const double shear = value(row, "e12");
       const double axial = value(row, "axial_strain");
       figures.strain_at_least = std::abs(shear) > std::abs(axial) ? shear : axial;
       figures.transformation_angle = value(row, "friction_angle_deg");
+      figures.least_in_first_row = !is_before && is_first;
     }
     risen = std::max(risen, p - least);
   }
@@ -61,6 +79,7 @@ UndrainedFigures undrained_figures(const ElementResult& result, const ElementCur
 std::string undrained_summary(const ElementResult& result) {
   std::string text;
   std::array<std::vector<double>, 4> values;
+  std::string on_rows;
   int flows = 0;
   int turns = 0;
   for (const ElementCurve& curve : result.curves) {
@@ -71,6 +90,7 @@ std::string undrained_summary(const ElementResult& result) {
         fmt::format("{:<24} {:>16.3f} {:>16.3f} {:>16.3f} {:>16} {:>6}\n", curve.name,
                     1e-3 * f.largest_pore_pressure, 1e-3 * f.least_mean_stress, 100.0 * f.strain_at_least,
                     turned ? fmt::format("{:.2f}", f.transformation_angle) : "none", f.flows ? "yes" : "no");
+    on_rows += lines_on_rows(curve.name, f);
     flows += f.flows ? 1 : 0;
     turns += turned ? 1 : 0;
     values[0].push_back(1e-3 * f.largest_pore_pressure);
@@ -82,7 +102,7 @@ std::string undrained_summary(const ElementResult& result) {
   text = fmt::format("{:<24} {:>16} {:>16} {:>16} {:>16} {:>6}\n", "undrained", "largest u, kPa",
                      "least p', kPa", "at strain, %", "PT angle, deg", "flows") +
          text;
-  if (values[0].size() < 2) return text;
+  if (values[0].size() < 2) return text + on_rows;
   text += fmt::format("{:<24}", fmt::format("mean of {}, 95 %", values[0].size()));
   for (const std::vector<double>& of : values) {
     if (of.size() < 2) {
@@ -94,7 +114,8 @@ std::string undrained_summary(const ElementResult& result) {
   }
   return text +
          fmt::format("\n{} of {} turn from contraction to dilation (PT: phase transformation), {} flow\n",
-                     turns, values[0].size(), flows);
+                     turns, values[0].size(), flows) +
+         on_rows;
 }
 
 }  // namespace polargrain::app

@@ -9,12 +9,15 @@ namespace polargrain::app {
 /// The figures of an undrained stage of a curve, pressures in Pa. The stage is the last one with pore pressure.
 struct UndrainedFigures {
   bool is_undrained = false;
-  double largest_pore_pressure = 0.0;
-  double least_mean_stress = 0.0;  ///< effective
-  double strain_at_least = 0.0;    ///< axial (or shear) strain there
+  double largest_pore_pressure = 0.0;  ///< the start of the stage counts too
+  double least_mean_stress = 0.0;      ///< effective; the start of the stage counts too
+  double strain_at_least = 0.0;        ///< axial (or shear) strain there
   /// Phase transformation: the mean stress falls, then rises again by more than a hundredth of its start. Mobilised angle there,
   /// degrees; NaN without one.
   double transformation_angle = 0.0;
+  /// Extremes that the first row of the stage has. They lie somewhere before its second row, and more rows would show another value.
+  bool largest_in_first_row = false;
+  bool least_in_first_row = false;
   bool flows = false;  ///< less than a hundredth of the mean stress at the start is left
 };
 

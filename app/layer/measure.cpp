@@ -18,8 +18,10 @@
 #include "common/error.hpp"
 #include "common/mean_and_interval.hpp"
 #include "common/packing_file.hpp"
+#include "common/regular_file.hpp"
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
+#include "coupler/case/cell_script.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_length.hpp"
 
@@ -37,6 +39,7 @@ class Measurement {
         jobs_(2 * options.seeds.size() + options.cell_seeds.size() * (1 + candidates()), options.quiet) {
     read_packing_specification(options.specification, settings_of(options.cell_grains, 1), options.scripts);
     for (const std::filesystem::path& packing : options.beside) read_packing(packing);
+    check_script_is_elsewhere();
     std::filesystem::create_directories(options.directory);
     check_origin();
     write_file(options.directory / "cell.in", specification_.script);
@@ -53,6 +56,14 @@ class Measurement {
   }
 
  private:
+  /// A script with what it includes is written as cell.in, which the script itself may be called.
+  void check_script_is_elsewhere() const {
+    const std::filesystem::path written = options_.directory / "cell.in";
+    const std::string reason = why_not_over(written, coupler::files_of_script(specification_.script_file));
+    if (!reason.empty() && coupler::content_of(written) != specification_.script)
+      throw InputError({written.string(), 0, reason + ", or another folder with -o"});
+  }
+
   [[nodiscard]] std::vector<std::string> settings_of(int grains, int seed) const {
     std::vector<std::string> settings = options_.settings;
     settings.push_back(fmt::format("grains={}", grains));

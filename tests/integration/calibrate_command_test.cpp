@@ -147,6 +147,40 @@ TEST_F(Calibrate, TellsOfPointsThatNoTestReaches) {
   EXPECT_EQ(run("calibrate lab.csv spec.yaml -o far -w 1").errors.find("warning"), std::string::npos);
 }
 
+// The search would end, and its parameters would fit a table of another unit or sign.
+TEST_F(Calibrate, TellsOfOtherUnitsAndSigns) {
+  make_laboratory();
+  const auto warning = [&](const std::string& of_target) {
+    write(scratch.path() / "spec.yaml",
+          specification(kBoth, "  - {column: s22_Pa, error: 500, " + of_target + "}\n") + "evaluations: 1\n");
+    std::filesystem::remove_all(scratch.path() / "out");
+    return run("calibrate lab.csv spec.yaml -o out -w 1").errors;
+  };
+  const std::string in_kilopascals = warning("factor: 1e-3");
+  EXPECT_NE(in_kilopascals.find("warning: s22_Pa of test 'drained': the laboratory has up to "),
+            std::string::npos)
+      << in_kilopascals;
+  const std::string other_sign = warning("factor: -1");
+  EXPECT_NE(other_sign.find("the laboratory and the test have opposite signs: give 'factor: -1'"),
+            std::string::npos)
+      << other_sign;
+  const std::string beginning = warning("factor_along: 0.01");
+  EXPECT_NE(beginning.find("the points of the laboratory end at axial_strain"), std::string::npos)
+      << beginning;
+  EXPECT_EQ(warning("factor: 1").find("warning"), std::string::npos);
+}
+
+// Its curves would stay as they are through the whole search.
+TEST_F(Calibrate, EachScriptHasEachParameter) {
+  make_laboratory();
+  expect_fault("packing: " + kPacking + "\nscript: cell.in\ntolerance: 1e-8\nparameters:\n" + kBoth +
+                   "tests:\n  a: {test: biaxial, pressure: 100 kPa, axial_strain: 1 %, rows: 5}\n"
+                   "  b: {test: biaxial, pressure: 100 kPa, axial_strain: 1 %, rows: 5, script: true.in}\n"
+                   "targets:\n  - {test: a, column: s22_Pa, last: -200e3, error: 500}\n"
+                   "  - {test: b, column: s22_Pa, last: -200e3, error: 500}\n",
+               "parameter 'stiffness': true.in: ");
+}
+
 TEST_F(Calibrate, TheProfileSeeksTheOtherParametersAnew) {
   make_laboratory();
   write(scratch.path() / "spec.yaml",

@@ -82,6 +82,7 @@ TEST(InterfaceCommand, MistakesAreFoundBeforeAnythingIsMade) {
     return outcome.errors;
   };
   EXPECT_NE(errors_of("--seeds 1").find("one box does not show the scatter"), std::string::npos);
+  EXPECT_NE(errors_of("--seeds 1,1").find("no independent samples"), std::string::npos);
   EXPECT_NE(errors_of("--roughness 0").find("--roughness"), std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
 }

@@ -105,6 +105,8 @@ TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
     return outcome.errors;
   };
   EXPECT_NE(errors_of("--seeds 1").find("one layer does not show the scatter"), std::string::npos);
+  EXPECT_NE(errors_of("--seeds 1,2,1").find("seed 1 stands twice"), std::string::npos);
+  EXPECT_NE(errors_of("--cell-seeds 1,1").find("no independent samples"), std::string::npos);
   EXPECT_NE(errors_of("--lc 0.4,0.2").find("candidates must grow"), std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
   EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);

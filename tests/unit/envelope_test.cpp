@@ -2,12 +2,14 @@
 // Failure envelopes and the figures of undrained tests, from curves that are known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "app/element/envelope.hpp"
 #include "app/element/undrained_figures.hpp"
+#include "element/named_tests.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -71,6 +73,72 @@ ElementCurve undrained(const std::vector<double>& mean_stress) {
   return curve;
 }
 
+/// The angles of a test whose axial stress goes with them.
+ElementResult with_angles(const std::vector<double>& angles) {
+  ElementResult result;
+  result.columns = {"s11_Pa", "s22_Pa", "s33_Pa", "friction_angle_deg"};
+  ElementCurve curve;
+  curve.name = "sand";
+  for (const double angle : angles) {
+    const StressCircle circle = at_limit(100e3, angle * kDegree, 0.0);
+    curve.rows.push_back({-circle.least, -circle.largest, -circle.least, angle});
+  }
+  result.curves = {curve};
+  return result;
+}
+
+TEST(Envelope, OfATestThatEndsBeforeItsPeakHasNoPeak) {
+  const std::vector<double> pressures{100e3, 200e3};
+  const std::vector<ElementResult> results{with_angles({0.0, 20.0, 35.0, 33.0}),
+                                           with_angles({0.0, 20.0, 30.0, 34.0})};
+  const Envelopes rising = envelopes_of(results, pressures);
+  const std::string text = envelope_summary(rising);
+  EXPECT_NE(text.find("sand: at 200 kPa the largest angle is the last row: no peak was reached\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("at 100 kPa"), std::string::npos) << text;
+  EXPECT_EQ(text.find("peak, "), std::string::npos) << text;
+  const std::string table = envelope_table(rising);
+  EXPECT_NE(table.find("sand,peak,100000,"), std::string::npos) << table;
+  EXPECT_NE(table.find("sand,largest,200000,"), std::string::npos) << table;
+  EXPECT_NE(envelope_charts(rising).find("no peak was reached"), std::string::npos);
+  // Of a plateau the tolerance of stresses may leave the last row a little above the others.
+  const std::vector<ElementResult> flat{with_angles({0.0, 35.0, 34.0}), with_angles({0.0, 35.0, 35.01})};
+  EXPECT_EQ(envelope_summary(envelopes_of(flat, pressures)).find("no peak"), std::string::npos);
+}
+
+TEST(Envelope, IsOfTestsThatMayFail) {
+  ElementSpecification specification;
+  specification.stages.resize(2);
+  specification.stages[0].name = "consolidation";
+  for (const char* const name : {"isotropic", "oedometer", "radial_unloading"}) {
+    specification.stages[1].name = name;
+    EXPECT_FALSE(can_fail(specification)) << name;
+  }
+  specification.stages[1].name = "biaxial";
+  EXPECT_TRUE(can_fail(specification));
+}
+
+TEST(ElementTable, ShearGivesTheDeviatorNoSign) {
+  element::Row row;
+  // The normal stresses of two packings differ by an accident, to either side.
+  for (const double more : {1e3, -1e3}) {
+    row.stress << -100e3 + more, -100e3, 0.0, 30e3, 0.0, 0.0;
+    TableForm form;
+    const std::vector<std::string> columns = element_columns(form, {});
+    const auto q = static_cast<std::size_t>(std::ranges::find(columns, "q_Pa") - columns.begin());
+    EXPECT_EQ(element_values(form, row)[q] > 0.0, more > 0.0);
+    form.drives_shear = true;
+    EXPECT_GT(element_values(form, row)[q], 60e3);
+  }
+  element::NamedTest test;
+  test.name = "simple_shear";
+  test.drive.amount = 0.05;
+  EXPECT_TRUE(element::drives_shear(element::stage_of(test, element::Room::discs)));
+  test.name = "biaxial";
+  EXPECT_FALSE(element::drives_shear(element::stage_of(test, element::Room::discs)));
+}
+
 TEST(Undrained, PhaseTransformationIsWhereTheMeanStressTurns) {
   ElementResult result;
   result.columns = {"stage", "row", "axial_strain", "e12", "p_Pa", "friction_angle_deg", "pore_pressure_Pa"};
@@ -85,8 +153,24 @@ TEST(Undrained, PhaseTransformationIsWhereTheMeanStressTurns) {
   EXPECT_TRUE(std::isnan(loose.transformation_angle));
   EXPECT_TRUE(loose.flows);
   const UndrainedFigures dilates = undrained_figures(result, undrained({100e3, 110e3, 130e3}));
+  EXPECT_DOUBLE_EQ(dilates.least_mean_stress, 100e3);  // the start
+  EXPECT_DOUBLE_EQ(dilates.strain_at_least, 0.0);
+  EXPECT_DOUBLE_EQ(dilates.largest_pore_pressure, 0.0);
   EXPECT_TRUE(std::isnan(dilates.transformation_angle));
   EXPECT_FALSE(undrained_figures(result, undrained({100e3, 100e3})).is_undrained);
+}
+
+TEST(Undrained, AnExtremeInTheFirstRowAsksForMoreRows) {
+  ElementResult result;
+  result.columns = {"stage", "row", "axial_strain", "e12", "p_Pa", "friction_angle_deg", "pore_pressure_Pa"};
+  result.curves = {undrained({100e3, 80e3, 90e3, 150e3})};
+  const std::string text = undrained_summary(result);
+  EXPECT_NE(text.find("the least p' falls into the first row; the rows are too few to see it"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("the largest u falls into the first row"), std::string::npos) << text;
+  result.curves = {undrained({100e3, 80e3, 60e3, 150e3})};
+  EXPECT_EQ(undrained_summary(result).find("first row"), std::string::npos);
 }
 
 }  // namespace
