@@ -143,8 +143,15 @@ double positive(const std::string& option, const std::string& text, coupler::Dim
 NewCase new_case(const NewOptions& options, const NewKind& kind) {
   NewCase what = kind.start;
   if (options.grains > 0) what.grains = options.grains;
-  if (!options.pressure.empty())
+  if (!options.pressure.empty()) {
     what.pressure = positive("--pressure", options.pressure, coupler::Dimension::pressure);
+    constexpr double kLeastPlainPressure = 1e3;  // Pa
+    if (what.pressure < kLeastPlainPressure && coupler::is_plain_number(options.pressure))
+      throw InputError(
+          {"", 0,
+           fmt::format("new: --pressure {0}: without a unit it is {0} Pa; write '{0}kPa', or '{0}Pa'",
+                       options.pressure)});
+  }
   if (!options.size.empty()) {
     what.width = positive("--size", options.size[0], coupler::Dimension::length);
     what.height = positive("--size", options.size[1], coupler::Dimension::length);

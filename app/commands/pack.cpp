@@ -16,7 +16,6 @@
 #include "common/error.hpp"
 #include "common/packing_file.hpp"
 #include "common/plain_text.hpp"
-#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "common/stepping_note.hpp"
@@ -27,11 +26,38 @@
 namespace polargrain::app {
 namespace {
 
-void check_output(const std::filesystem::path& output) {
-  if (output.extension() != ".h5")
-    throw InputError({"", 0, fmt::format("-o {}: the name of a packing must end in .h5", output.string())});
-  if (const std::string reason = why_no_output(output); !reason.empty())
-    throw InputError({"", 0, fmt::format("-o {}: {}", output.string(), reason)});
+/// @throws InputError unless a packing can be written there, and is not made from a file of this name
+void check_packing_output(const PackOptions& options) {
+  if (options.output.extension() != ".h5")
+    throw InputError(
+        {"", 0, fmt::format("-o {}: the name of a packing must end in .h5", options.output.string())});
+  check_output("-o", options.output,
+               options.settle.empty() ? files_read_with(coupler::DocumentKind::packing,
+                                                        options.specification_file, options.settings)
+                                      : options.settle);
+}
+
+/// Whether there is a file of this name that is no earlier export of a packing.
+bool is_another_file(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return false;
+  std::ifstream former(file);
+  std::string line;
+  std::getline(former, line);
+  return !line.starts_with(kPackingDataHead);
+}
+
+/// @throws InputError where the export would replace another file
+void check_export(const PackOptions& options) {
+  std::error_code error;  // of a file that does not exist: it is not the other one
+  if (is_another_file(options.export_file) &&
+      !std::filesystem::equivalent(options.export_file, options.specification_file, error))
+    throw InputError(
+        {"", 0,
+         fmt::format(
+             "--export {0}: this file is there and is no exported packing; name another file to write. The "
+             "packing comes first: polargrain pack {1} --export FILE.data",
+             plain_text(options.export_file.string()), plain_text(options.specification_file.string()))});
+  check_output("--export", options.export_file, {options.specification_file});
 }
 
 /// Makes the packing in a process of its own. @returns whether that ended well
@@ -134,6 +160,7 @@ std::string make_packing_file(const PackingWork& make, const std::filesystem::pa
 
 int pack(const PackOptions& options, const PackingTools& tools) {
   if (!options.export_file.empty()) {
+    check_export(options);
     fem::write_file(options.export_file, packing_data(read_packing(options.specification_file)));
     return 0;
   }
@@ -143,7 +170,7 @@ int pack(const PackOptions& options, const PackingTools& tools) {
   const PackingSpecification specification =
       settles ? settling(options)
               : read_packing_specification(options.specification_file, options.settings, options.scripts);
-  check_output(options.output);
+  check_packing_output(options);
   const PackingWork make = [&](const std::function<void(const PackingReached&)>& progress) {
     if (!settles) return tools.make(specification, progress);
     return tools.settle(specification, packing_to_settle(options.settle.front()), progress);

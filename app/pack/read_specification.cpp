@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "common/error.hpp"
@@ -163,15 +165,15 @@ void require_dimension(const PackingSpecification& specification, coupler::Fault
   faults.insert(faults.end(), other.begin(), other.end());
 }
 
-/// Grains of metres, and a density of less than aerogel's, are numbers in other units.
+/// Grains of metres, and a density of less than cork's, are numbers in other units.
 constexpr double kLargestPlainRadius = 0.25;  // m
-constexpr double kLeastDensity = 20.0;        // kg/m^3
+constexpr double kLeastDensity = 100.0;       // kg/m^3, as of cork
 constexpr double kLeastPlainPressure = 1e3;   // Pa
 
 /// A plain number that can hardly be meant in SI units. @param unit that was most likely meant
 void doubt_plain_number(const coupler::Entry& entry, const std::string& key, bool doubtful,
                         const std::string& as_read, const std::string& unit, coupler::Faults& faults) {
-  if (!doubtful || entry.line == 0 || !coupler::is_plain_number(entry.text)) return;
+  if (!doubtful || !coupler::is_plain_number(entry.text)) return;
   faults.push_back(entry.fault(
       fmt::format("{0}: '{1}' without a unit is {2}; write '{1} {3}', or with the unit that is meant", key,
                   entry.text, as_read, unit)));
@@ -190,15 +192,24 @@ void doubt_sizes(const coupler::Entry& sizes, coupler::Faults& faults) {
   }
 }
 
+void doubt_pressure(const coupler::Entry& pressure, coupler::Faults& faults) {
+  const auto value = coupler::parse_quantity(pressure.text, coupler::Dimension::pressure);
+  if (!value || *value <= 0.0) return;
+  doubt_plain_number(pressure, "pressure", *value < kLeastPlainPressure,
+                     fmt::format("{:g} Pa, the weight of {:.2g} mm of soil", *value, *value / 18.0), "kPa",
+                     faults);
+}
+
+/// Of one pressure, or of one an axis.
+void doubt_pressures(const coupler::Entry& pressures, coupler::Faults& faults) {
+  doubt_pressure(pressures, faults);
+  for (const coupler::Entry& pressure : pressures.items) doubt_pressure(pressure, faults);
+}
+
 void doubt_numbers(const coupler::Entry& document, const PackingSpecification& specification,
                    coupler::Faults& faults) {
   if (const coupler::Entry* const sizes = document.find("sizes")) doubt_sizes(*sizes, faults);
-  if (const coupler::Entry* const pressure = document.find("pressure");
-      pressure != nullptr && pressure->text != "0")
-    doubt_plain_number(*pressure, "pressure", specification.pressure < kLeastPlainPressure,
-                       fmt::format("{:g} Pa, the weight of {:.2g} mm of soil", specification.pressure,
-                                   specification.pressure / 18.0),
-                       "kPa", faults);
+  if (const coupler::Entry* const pressure = document.find("pressure")) doubt_pressures(*pressure, faults);
   if (const coupler::Entry* const density = document.find("density")) {
     if (!coupler::is_plain_number(density->text))
       faults.push_back(density->fault("density: give the number of kg/m3 alone, such as 2650"));
@@ -231,6 +242,14 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   read_one_dimensional(top, specification);
   read_deposition(top, specification, faults);
   specification.friction = top.quantity("friction", coupler::Dimension::number, coupler::Limit::not_negative);
+  constexpr double kMostFriction = 5.0;  // of 79 degrees
+  if (specification.friction > kMostFriction)
+    top.fault("friction",
+              fmt::format(
+                  "friction: a coefficient of {0:g} is of an angle of {1:.0f} degrees; for an angle of {0:g} "
+                  "degrees write {2:.3f}",
+                  specification.friction, std::atan(specification.friction) * 180.0 / std::numbers::pi,
+                  std::tan(specification.friction * std::numbers::pi / 180.0)));
   if (top.find("rolling_friction") != nullptr)
     specification.rolling_friction =
         top.quantity("rolling_friction", coupler::Dimension::number, coupler::Limit::not_negative);
@@ -275,6 +294,7 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   specification.contact_library =
       coupler::read_contact_library(top, {std::filesystem::current_path(), scripts});
   top.finish();
+  if (const coupler::Entry* const given = document.find("pressure")) doubt_pressures(*given, faults);
   const auto file = coupler::find_data_file(script.string(), std::filesystem::current_path());
   if (!file)
     faults.push_back(

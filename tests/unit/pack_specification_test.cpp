@@ -123,6 +123,13 @@ TEST_F(Specification, FaultsNameTheLine) {
   EXPECT_EQ(fault("density: 2650", "density: 2650 kg/m3").find("lighter"), std::string::npos);
   EXPECT_EQ(fault("pressure: 100 kPa", "pressure: -1 kPa"),
             ":6: packing: pressure: must be greater than zero, found '-1 kPa'");
+  EXPECT_EQ(
+      fault("pressure: 100 kPa", "pressure: 50"),
+      ":6: pressure: '50' without a unit is 50 Pa, the weight of 2.8 mm of soil; write '50 kPa', or with the unit that is meant");
+  EXPECT_NE(fault("friction: 0", "friction: 30").find("for an angle of 30 degrees write 0.577"),
+            std::string::npos);
+  EXPECT_NE(fault("pressure: 100 kPa", "pressure: [80 kPa, 120]").find("'120' without a unit is 120 Pa"),
+            std::string::npos);
   EXPECT_EQ(fault("seed: 1", "seeds: 1").substr(0, 45), ":1: packing: the key 'seed' is missing; give ");
   EXPECT_EQ(fault("cells/hooke_radii.in", "cells/nowhere.in").substr(0, 62),
             ":5: packing: script: there is no file 'cells/nowhere.in', neit");
