@@ -130,9 +130,9 @@ await grep -q "guest 1 .*its connection is closed" array/run.log || { echo "nobo
 kill -0 $run || { echo "the run did not outlive its workers"; exit 1; }
 scontrol update NodeName="$node" State=RESUME
 # At once, not after the minutes that Slurm waits with a task it has put back.
-# One may have begun by itself between the two commands, and be done with the run: then there is nothing to hasten.
+# One may have begun by itself between the two commands, and may even be done with the run: then there is nothing to hasten.
 for job in $(squeue --noheader --format=%A | sort -u); do
-  scontrol update JobId="$job" StartTime=now 2>hastened.log || grep -q "already finished" hastened.log ||
+  scontrol update JobId="$job" StartTime=now 2>hastened.log || grep -Eq "already finished|no longer pending" hastened.log ||
     { cat hastened.log; exit 1; }
 done
 wait $run || { tail array/run.log; exit 1; }
