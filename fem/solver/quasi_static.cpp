@@ -32,7 +32,7 @@ std::vector<double> weights_of_means(const std::vector<double>& times) {
 }  // namespace
 
 double QuasiStatic::error() const {
-  // Ten packings, three paces: 91, 93 and 81 % of the rows before the peak are within this (docs/theory/explicit.md); at the
+  // Ten packings, three paces: 95, 98 and 91 % of the rows before the peak are within this (docs/theory/explicit.md); at the
   // slowest pace the reference is no better known.
   constexpr double kWaves = 1.0;
   constexpr double kDrag = 2.0;
