@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "coupler/case/parts.hpp"
 
@@ -79,7 +80,8 @@ class StagesReader {
   }
 
   void read_stage(const Entry& entry, std::size_t index) {
-    const bool builds = parts_.builds && builds_in(entry);
+    // Behind a stage that jacks an anchor a stage of the problem begins in any case, so that the anchor is locked.
+    const bool builds = parts_.builds && (std::exchange(jacks_, false) || builds_in(entry));
     const std::string name = fmt::format("stage {}", index + 1);
     Section stage(entry,
                   are_named_ && entry.find("name") != nullptr
@@ -183,6 +185,8 @@ class StagesReader {
             }
             fem::Lifetime life = life_of(problem, structure->second);
             visit(part, life);
+            jacks_ =
+                jacks_ || (structure->second.kind == CaseParts::Structure::Kind::anchor && key != kRemove);
             for (const std::size_t number : structure->second.contributions)
               problem.contributions[number]->life = life;
             continue;
@@ -262,6 +266,7 @@ class StagesReader {
   bool are_named_;
   double time_ = 0.0;
   int number_ = 0;               ///< of the problem's stage
+  bool jacks_ = false;           ///< the stage before places an anchor
   std::set<std::string> named_;  ///< structures that a stage places or removes
 };
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "common/error.hpp"
 #include "fem/element/dofs.hpp"
@@ -15,8 +14,8 @@ namespace polargrain::fem {
 
 namespace {
 
-constexpr double kYieldingAnchorStiffness =
-    1e-6;  ///< share that the tangent keeps, so that no mechanism makes it singular
+/// Share that the tangent keeps where the force is constant, so that no mechanism makes it singular.
+constexpr double kStiffnessOfConstantForce = 1e-6;
 
 }  // namespace
 
@@ -45,8 +44,16 @@ void Anchor<dim>::allocate() {
 }
 
 template <int dim>
+void Anchor<dim>::set_stage(int stage, const std::vector<char>&) {
+  active_ = this->life.holds(stage);
+  const bool is_placed = stage > 0 && stage == this->life.begin;
+  jacks_ = is_placed && settings_.prestress != 0.0;
+}
+
+template <int dim>
 void Anchor<dim>::begin_stage(const StageBegin<dim>& now) {
-  const bool before = std::exchange(active_, this->life.holds(now.stage));
+  const bool before = active_;
+  set_stage(now.stage, now.there);
   if (before == active_) return;
   allocate();
   if (!active_) return;
@@ -58,11 +65,13 @@ template <int dim>
 std::string Anchor<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   if (!active_) return {};
   const double elongation = elongation_of_.dot(step.end(entries_));
-  const double stiffness = settings_.axial_stiffness / length_;
-  const double trial = settings_.prestress + stiffness * (elongation - committed_plastic_);
-  force_ = std::clamp(trial, -settings_.compressive_strength, settings_.strength);
-  yields_ = force_ != trial;
-  plastic_ = committed_plastic_ + (trial - force_) / stiffness;
+  const double trial = settings_.prestress + stiffness() * (elongation - committed_plastic_);
+  force_ =
+      std::clamp(jacks_ ? settings_.prestress : trial, -settings_.compressive_strength, settings_.strength);
+  resists_ = !jacks_ && force_ == trial;
+  // The length of a jack follows the ground as that of a yielding rod does, so that it is locked without a change of force.
+  const bool is_slack = !jacks_ && settings_.compressive_strength == 0.0 && trial < 0.0;
+  plastic_ = committed_plastic_ + (is_slack ? 0.0 : (trial - force_) / stiffness());
   const Eigen::VectorXd own = force_ * elongation_of_;
   forces.internal(entries_) += own;
   forces.parts(entries_) += own.cwiseAbs();
@@ -71,8 +80,8 @@ std::string Anchor<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
 
 template <int dim>
 Eigen::MatrixXd Anchor<dim>::tangent(std::size_t) const {
-  const double stiffness = (yields_ ? kYieldingAnchorStiffness : 1.0) * settings_.axial_stiffness / length_;
-  return stiffness * elongation_of_ * elongation_of_.transpose();
+  const double slope = (resists_ ? 1.0 : kStiffnessOfConstantForce) * stiffness();
+  return slope * elongation_of_ * elongation_of_.transpose();
 }
 
 template <int dim>

@@ -18,12 +18,21 @@ struct AnchorSettings {
   std::optional<int> to = {};                                          ///< node
   typename Cosserat<dim>::Place fixed = Cosserat<dim>::Place::Zero();  ///< its other end without `to`, m
   double axial_stiffness;                                              ///< EA, N, positive
-  double prestress = 0.0;      ///< force at the start, or when a stage places it, N, tension positive
+  /// N, tension positive: the force at which the stage that places it ends. Of an anchor that is there from the start: the force
+  /// before the balance at the start, in which it gives way with the ground.
+  double prestress = 0.0;
   double strength = HUGE_VAL;  ///< force at which it yields in tension, N
-  double compressive_strength = HUGE_VAL;  ///< the same in compression, positive; 0: a rope
+  /// The same in compression, positive. 0: a rope, which goes slack and keeps its length.
+  double compressive_strength = HUGE_VAL;
 };
 
-/// N = EA (elongation / length) + prestress, with perfect yielding at both strengths. Small deformation.
+/// N = EA (elongation / length) + prestress, with perfect yielding at both strengths. Small deformation. The length that yielding
+/// leaves stays; a slack rope has no such length, and is taut again where it went slack.
+///
+/// With a prestress it is a jack during the stage that places it: a pair of constant forces, which the stage lets go like all that
+/// it changes. A rod would lose force as the ground gives way. When the next stage begins (begin_stage, set_stage) it is locked: a rod
+/// of the length that it has then. No body hangs on a jack alone, since faults of a problem count no anchor as a support. Where
+/// the ground does not resist its force, the stage finds no balance.
 template <int dim>
 class Anchor : public Contribution<dim> {
  public:
@@ -35,7 +44,7 @@ class Anchor : public Contribution<dim> {
   [[nodiscard]] const std::vector<int>& entries(std::size_t) const override { return entries_; }
   void allocate() override;
   [[nodiscard]] bool takes_stages() const override { return true; }
-  void set_stage(int stage, const std::vector<char>&) override { active_ = this->life.holds(stage); }
+  void set_stage(int stage, const std::vector<char>& there) override;
   void begin_stage(const StageBegin<dim>& now) override;
   [[nodiscard]] bool is_active(std::size_t) const override { return active_; }
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
@@ -53,16 +62,20 @@ class Anchor : public Contribution<dim> {
   [[nodiscard]] double force() const { return active_ ? committed_force_ : 0.0; }
 
  private:
+  [[nodiscard]] double stiffness() const { return settings_.axial_stiffness / length_; }  ///< N/m
+
   AnchorSettings<dim> settings_;
   std::vector<int> entries_;
   Eigen::VectorXd elongation_of_;  ///< elongation per value of the entries
   double length_;
-  double committed_plastic_ = 0.0;  ///< elongation that yielding has left, or that was there when it came, m
+  /// Elongation at which it has its prestress, m: that yielding has left, or that was there when it came or was locked.
+  double committed_plastic_ = 0.0;
   double committed_force_;
   double plastic_ = 0.0;
   double force_;
-  bool yields_ = false;
-  bool active_ = true;  ///< in the stage
+  bool resists_ = true;  ///< its force follows its elongation: no jack, neither yielding nor slack
+  bool active_ = true;   ///< in the stage
+  bool jacks_ = false;   ///< in the stage
 };
 
 }  // namespace polargrain::fem

@@ -262,4 +262,81 @@ TEST(anchor, holds_its_prestress_and_yields) {
   }
 }
 
+/// A rod of 1 m and 1 MN on the top of a block that is drawn up, let back, pushed down by 5 mm and drawn up again.
+struct PulledRod {
+  std::string what;
+  double prestress, strength, compressive_strength;
+  std::vector<double> forces;  ///< N, by time
+};
+
+// A slack rope keeps its length, so that it is taut again where it went slack. Yielding leaves a length, in tension and in a strut.
+TEST(anchor, is_a_rope_or_a_strut) {
+  for (const PulledRod& rod : {
+           PulledRod{"rope", 0.0, HUGE_VAL, 0.0, {5e3, 0.0, 0.0, 3e3, 5e3, 0.0}},
+           PulledRod{"rope with a prestress", 2e3, HUGE_VAL, 0.0, {7e3, 2e3, 0.0, 5e3, 7e3, 2e3}},
+           PulledRod{"rope that yields", 0.0, 4e3, 0.0, {4e3, 0.0, 0.0, 2e3, 4e3, 0.0}},
+           PulledRod{"prestressed rope that yields", 2e3, 6e3, 0.0, {6e3, 1e3, 0.0, 4e3, 6e3, 1e3}},
+           PulledRod{"strut", 0.0, HUGE_VAL, 2e3, {5e3, 0.0, -2e3, 6e3, 8e3, 3e3}},
+           PulledRod{"rod", 0.0, HUGE_VAL, HUGE_VAL, {5e3, 0.0, -5e3, 3e3, 5e3, 0.0}},
+       }) {
+    Problem<2> problem;
+    problem.mesh = rectangle({{1.0, 1.0}, {1, 1}});
+    problem.materials["all"] = elastic_ground<2>(1e7, 0.0);
+    problem.prescribed = {
+        {"bottom", Dof::u2, kZero, {}},
+        {"bottom_left", Dof::u1, kZero, {}},
+        {"all", Dof::w, kZero, {}},
+        {"top",
+         Dof::u2,
+         TimeTable({{0.0, 0.0}, {1.0, 5e-3}, {2.0, 0.0}, {3.0, -5e-3}, {4.0, 3e-3}, {5.0, 5e-3}, {6.0, 0.0}}),
+         {}}};
+    name_nodes(problem.mesh, "middle", [](const auto& x) { return x(1) == 1.0 && x(0) == 0.5; });
+    AnchorSettings<2> settings{"tie", problem.mesh.nodes_on("middle").front(), {}, {0.5, 0.0}, 1e6};
+    settings.prestress = rod.prestress;
+    settings.strength = rod.strength;
+    settings.compressive_strength = rod.compressive_strength;
+    const auto anchor = std::make_shared<Anchor<2>>(problem.mesh, settings);
+    problem.contributions.push_back(anchor);
+    Solver<2> solver(std::move(problem), kTightOfBeam);
+    ASSERT_TRUE(solver.equilibrate().converged) << rod.what;
+    EXPECT_NEAR(anchor->force(), rod.prestress, 1e-8) << rod.what;
+    for (std::size_t k = 0; k < rod.forces.size(); ++k) {
+      const StepReport report = solver.advance(static_cast<double>(k + 1));
+      ASSERT_TRUE(report.converged) << rod.what << k << report.message;
+      EXPECT_NEAR(anchor->force(), rod.forces[k], 1e-8) << rod.what << k;
+    }
+  }
+}
+
+// A rope of 1 MN that yields at 4 kN: taut, slack and yielding.
+TEST(anchor, tangent_is_the_slope_of_its_force) {
+  const Mesh<2> mesh = rectangle({{1.0, 1.0}, {1, 1}});
+  AnchorSettings<2> settings{"tie", 0, 1, {}, 1e6};
+  settings.compressive_strength = 0.0;
+  settings.strength = 4e3;
+  Anchor<2> anchor(mesh, settings);
+  anchor.allocate();
+  const Eigen::VectorXd start =
+      Eigen::VectorXd::Zero(Cosserat<2>::dofs * static_cast<Eigen::Index>(mesh.nodes.size()));
+  const double length = (mesh.nodes[1] - mesh.nodes[0]).norm();
+  const Eigen::Vector2d way = (mesh.nodes[1] - mesh.nodes[0]) / length;
+  const auto force_at = [&](double strain) {
+    Eigen::VectorXd increment = start;
+    increment.segment<2>(entry_of<2>(1)) = strain * length * way;
+    NodalForces forces{start, start};
+    EXPECT_EQ(anchor.evaluate({0.0, 1.0, start, increment}, forces), "");
+    return way.dot(forces.internal.segment<2>(entry_of<2>(1)));
+  };
+  const double stiffness = settings.axial_stiffness / length;
+  constexpr double kStep = 1e-6;
+  for (const auto& [strain, share] : {std::pair(2e-3, 1.0), std::pair(-2e-3, 0.0), std::pair(8e-3, 0.0)}) {
+    const double slope = (force_at(strain + kStep) - force_at(strain - kStep)) / (2 * kStep * length);
+    (void)force_at(strain);
+    // Its entries are those of node 0, then those of node 1.
+    const Eigen::Matrix2d of_second = anchor.tangent(0).bottomRightCorner<2, 2>();
+    EXPECT_NEAR(slope, share * stiffness, 1e-6 * stiffness) << strain;
+    EXPECT_NEAR(way.dot(of_second * way), slope, 2e-6 * stiffness) << strain;
+  }
+}
+
 }  // namespace

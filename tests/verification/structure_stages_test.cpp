@@ -198,32 +198,82 @@ TEST(StructureStages, GroundIsOneBodyUntilTheWallComes) {
   }
 }
 
-// N = N0 / (1 + k_rod / k_ground): the rod loosens as the ground gives way. The stiffness of the ground is that of another run.
-TEST(StructureStages, ARodIsPrestressedWhenItComesAndLetsGoWhenItGoes) {
-  const std::string wall = "    - {name: wall, place: wall, count: 1}\n";
-  const auto pulled = run(read(ground(wall + "    - {name: rod, place: rod, count: 2}\n"
-                                             "    - {name: gone, remove: rod, count: 1}\n")),
-                          3);
-  const auto along = [](const fem::Solver<2>& solver) {
-    const int head = solver.problem().mesh.nodes_on("wall_top").front();
-    const Eigen::Vector2d way = (Eigen::Vector2d(14, 6) - Eigen::Vector2d(4, 10)).normalized();
-    return way.dot(solver.state().displacement.segment<2>(fem::entry_of<2>(head)));
-  };
-  // A force of the same direction on the head gives the stiffness.
+/// Of the head of the wall towards the fixed end of the rod: the rod shortens by it, m.
+double along_rod(const fem::Solver<2>& solver) {
   const Eigen::Vector2d way = (Eigen::Vector2d(14, 6) - Eigen::Vector2d(4, 10)).normalized();
-  const auto loaded =
-      run(read(ground(wall + "    - {name: pull, count: 1, boundary: [{on: wall_top, node_force: {u1: " +
-                      std::to_string(40 * way(0)) + " kN/m, u2: " + std::to_string(40 * way(1)) +
-                      " kN/m}}]}\n    - {name: rod, place: rod, count: 1}\n")),
-          2);
-  const double ground_stiffness = 40e3 / along(*loaded);
-  const double rod_stiffness = 20e6 / std::sqrt(116.0);
-  EXPECT_NEAR(value(*pulled, "rod", "force"), 40e3 / (1.0 + rod_stiffness / ground_stiffness), 40e3 * 1e-6);
-  const Case the_case = read(ground(wall + "    - {name: rod, place: rod, count: 2}\n"
-                                           "    - {name: gone, remove: rod, count: 1}\n"));
-  const auto gone = run(the_case);
-  EXPECT_LT(largest(gone->state().displacement), 1e-9 * largest(pulled->state().displacement));
-  EXPECT_EQ(value(*gone, "rod", "force"), 0.0);
+  const int head = solver.problem().mesh.nodes_on("wall_top").front();
+  return way.dot(solver.state().displacement.segment<2>(fem::entry_of<2>(head)));
+}
+
+/// A node force on the head of the wall along the rod. @param force kN/m, towards its fixed end
+std::string pull_along_rod(double force) {
+  const Eigen::Vector2d way = force * (Eigen::Vector2d(14, 6) - Eigen::Vector2d(4, 10)).normalized();
+  return "boundary: [{on: wall_top, node_force: {u1: " + std::to_string(way(0)) +
+         " kN/m, u2: " + std::to_string(way(1)) + " kN/m}}]";
+}
+
+constexpr double kRodStiffness = 20e6 / 10.770329614269007;  // N/m per m, over the root of 116 m2
+constexpr const char* kWall = "    - {name: wall, place: wall, count: 1}\n";
+
+// The stage that places it jacks it: the ground moves as under a force of that size, and the rod is locked with it. Behind that stage
+// the rod gives way and pulls as its stiffness has it.
+TEST(StructureStages, ARodIsJackedWhenItComesAndLetsGoWhenItGoes) {
+  for (const std::string count : {"1", "2"}) {
+    const Case the_case = read(ground(kWall + ("    - {name: rod, place: rod, count: " + count + "}\n") +
+                                      "    - {name: dig, remove: p1, count: 2}\n"
+                                      "    - {name: gone, remove: rod, count: 1}\n"));
+    const int jacked_at = 1 + std::stoi(count);
+    const auto jacked = run(the_case, jacked_at);
+    EXPECT_NEAR(value(*jacked, "rod", "force"), 40e3, 40e3 * 1e-9);
+    const auto loaded =
+        run(read(ground(kWall + ("    - {name: pull, count: 1, " + pull_along_rod(40.0) + "}\n") +
+                        "    - {name: rod, place: rod, count: 1}\n")),
+            2);
+    EXPECT_NEAR(along_rod(*jacked) / along_rod(*loaded), 1.0, 1e-6);  // digits of the text of the force
+    const double before = along_rod(*jacked);
+    const auto dug = run(the_case, jacked_at + 2);
+    const double elongation = before - along_rod(*dug);
+    EXPECT_GT(std::abs(elongation), 1e-6);
+    EXPECT_NEAR(value(*dug, "rod", "force"), 40e3 + kRodStiffness * elongation, 40e3 * 1e-7);
+    const auto gone = run(the_case);
+    EXPECT_EQ(value(*gone, "rod", "force"), 0.0);
+    const auto never = run(read(ground(kWall + std::string("    - {name: dig, remove: p1, count: 2}\n"
+                                                           "    - {name: rod, place: rod, count: 1}\n"))),
+                           3);
+    EXPECT_NEAR(along_rod(*gone), along_rod(*never), 1e-9 * largest(never->state().displacement));
+  }
+}
+
+// Under a load of the stage that places it a jacked rod has its prestress all the same. A rod without a prestress resists that load
+// from the beginning.
+TEST(StructureStages, ALoadOfTheStageThatPlacesARodStretchesOnlyRodsWithoutPrestress) {
+  const std::string loaded = "    - {name: rod, place: rod, count: 2, " + pull_along_rod(-40.0) + "}\n";
+  const auto jacked = run(read(ground(kWall + loaded)));
+  EXPECT_NEAR(value(*jacked, "rod", "force"), 40e3, 40e3 * 1e-9);
+  std::string text = ground(kWall + loaded);
+  const std::string prestress = ", prestress: 40 kN/m";
+  text.erase(text.find(prestress), prestress.size());
+  const auto plain = run(read(text));
+  EXPECT_LT(along_rod(*plain), 0.0);
+  EXPECT_NEAR(value(*plain, "rod", "force"), -kRodStiffness * along_rod(*plain), 40e3 * 1e-7);
+}
+
+// Locked too where the stage behind names no change: a load that grows by a table stretches it.
+TEST(StructureStages, ARodIsLockedBeforeAStageThatNamesNoChange) {
+  std::string text = ground(kWall + std::string("    - {name: rod, place: rod, count: 1}\n"
+                                                "    - {name: load, count: 2}\n"
+                                                "    - {name: more, count: 1}\n"));
+  const std::string bottom = "  - {on: bottom, fix: [u1, u2]}\n";
+  text.replace(text.find(bottom), bottom.size(),
+               bottom + "  - {on: wall_top, node_force: {u1: [[0, 0], [2, 0], [5, -40 kN/m]]}}\n");
+  const auto jacked = run(read(text), 2);
+  EXPECT_NEAR(value(*jacked, "rod", "force"), 40e3, 40e3 * 1e-9);
+  for (const int steps : {4, 5}) {
+    const auto loaded = run(read(text), steps);
+    const double elongation = along_rod(*jacked) - along_rod(*loaded);
+    EXPECT_GT(elongation, 1e-5);
+    EXPECT_NEAR(value(*loaded, "rod", "force"), 40e3 + kRodStiffness * elongation, 40e3 * 1e-7);
+  }
 }
 
 // The state of a stage with a wall that has come is kept in a checkpoint.
@@ -231,6 +281,7 @@ TEST(StructureStages, AreRestoredInTheMiddleOfAStage) {
   const Case the_case = read(ground(kPlace + std::string(kFiveCuts)));
   const auto whole = run(the_case);
   const double moment = value(*whole, "wall", "moment");
+  const double pull = value(*whole, "rod", "force");
   const Eigen::VectorXd displacement = whole->state().displacement;
   for (const int middle : {1, 2, 4, 7}) {
     const auto first = run(the_case, middle);
@@ -242,6 +293,7 @@ TEST(StructureStages, AreRestoredInTheMiddleOfAStage) {
     for (int step = middle + 1; step <= again.steps(); ++step) take(again, step, second);
     EXPECT_EQ(second.state().displacement, displacement) << middle;
     EXPECT_EQ(value(second, "wall", "moment"), moment);
+    EXPECT_EQ(value(second, "rod", "force"), pull);
   }
 }
 
