@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "coupler/case/parts.hpp"
 #include "coupler/case/water_values.hpp"
+#include "fem/water/free_water.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -132,29 +134,58 @@ void prescribe(const std::vector<std::string>& places, const fem::TimeTable& val
   parts.result.with_problem(add);
 }
 
-/// The level of free water over the time, where it is above the lowest place of a boundary: a bed that falls dry has no suction.
-fem::TimeTable above_bed(Section& item, const fem::TimeTable& level, const std::string& boundary,
-                         CaseParts& parts) {
-  const double bed = parts.result.with_problem([&](const auto& problem) {
-    double lowest = HUGE_VAL;
+/// Whether free water stands above all of a boundary at all times.
+bool always_covers(Section& item, const fem::TimeTable& level, const std::string& boundary,
+                   CaseParts& parts) {
+  const double highest = parts.result.with_problem([&](const auto& problem) {
+    double height = -HUGE_VAL;
     for (const int node : problem.mesh.nodes_on(boundary))
-      lowest = std::min(lowest, problem.mesh.nodes[static_cast<std::size_t>(node)].template tail<1>()(0));
-    return lowest;
+      height = std::max(height, problem.mesh.nodes[static_cast<std::size_t>(node)].template tail<1>()(0));
+    return height;
   });
-  if (item.find("free_water")->kind != Entry::Kind::sequence)
-    return fem::TimeTable::constant(std::max(level.at(0.0), bed));
-  std::vector<fem::TimeTable::Point> points;
-  for (const auto& [time, height] : item.pairs("free_water", parts.time(), Dimension::length, Limit::any)) {
-    // Between two rows on either side of the bed: where it falls dry.
-    if (!points.empty() && (points.back().value - bed) * (height - bed) < 0.0) {
-      const fem::TimeTable::Point& before = points.back();
-      points.push_back(
-          {before.time + (time - before.time) * (bed - before.value) / (height - before.value), bed});
-    }
-    points.push_back({time, height});
+  double lowest = level.at(0.0);
+  if (item.find("free_water")->kind == Entry::Kind::sequence)
+    for (const auto& [time, height] : item.pairs("free_water", parts.time(), Dimension::length, Limit::any))
+      lowest = std::min(lowest, height);
+  return lowest >= highest;
+}
+
+/// Whether a stage before this one has left a boundary open. A pressure that is given there from now on would jump.
+template <int dim>
+bool was_open(const fem::Problem<dim>& problem, const std::string& boundary, const CaseParts& parts) {
+  if (parts.now.number == 0) return false;
+  const fem::PoreWater<dim>* const water = fem::pore_water_of(problem);
+  return water != nullptr && std::ranges::any_of(water->options().open_sides, [&](const fem::OpenSide& side) {
+           return side.on == boundary && side.life && side.life->begin < parts.now.number;
+         });
+}
+
+/// A boundary that free water leaves dry in part or for a while. A pressure given there would feed or drain dry ground for ever.
+template <int dim>
+void leave_open(fem::Problem<dim>& problem, const std::string& boundary, CaseParts& parts) {
+  if (!flows(*parts.water)) return;
+  std::optional<fem::OpenSide> side;
+  std::optional<double> before;
+  fem::PoreWater<dim>* water = nullptr;  // of stages: it is there when they are read
+  for (const auto& contribution : problem.contributions) {
+    if (auto* const there = dynamic_cast<fem::PoreWater<dim>*>(contribution.get())) water = there;
+    const auto* const free = dynamic_cast<const fem::FreeWater<dim>*>(contribution.get());
+    if (free == nullptr || free->on() != boundary) continue;
+    // The last one is that of this item; a stage that ends it ends the side too.
+    if (side) before = side->level.at(parts.now.start);
+    side = fem::OpenSide{boundary, free->level(),
+                         std::shared_ptr<const fem::Lifetime>(contribution, &contribution->life)};
   }
-  for (fem::TimeTable::Point& point : points) point.value = std::max(point.value, bed);
-  return points.empty() ? level : fem::TimeTable(std::move(points));
+  if (!side) return;
+  if (before && parts.now.number > 0 && parts.now.end) {
+    side->level_before = *before;
+    side->start = parts.now.start;
+    side->end = *parts.now.end;
+  }
+  if (water != nullptr)
+    water->open_side(problem, std::move(*side));
+  else
+    parts.water->options.open_sides.push_back(std::move(*side));
 }
 
 }  // namespace
@@ -220,7 +251,12 @@ bool read_water_boundary(Section& item, const std::vector<std::string>& places, 
       prescribe(places, level, options.unit_weight, parts);
     } else {
       for (const std::string& boundary : add_free_water(item, places, level, parts))
-        prescribe({boundary}, above_bed(item, level, boundary, parts), options.unit_weight, parts);
+        parts.result.with_problem([&]<int dim>(fem::Problem<dim>& problem) {
+          if (always_covers(item, level, boundary, parts) && !was_open<dim>(problem, boundary, parts))
+            prescribe({boundary}, level, options.unit_weight, parts);
+          else
+            leave_open<dim>(problem, boundary, parts);
+        });
     }
   } else if (is_yes(item.choice_or(key, kYesOrNo, "no"))) {
     if (options.table) {

@@ -34,7 +34,7 @@ std::vector<BareFace<dim>> bare_sides_of_wall(const std::shared_ptr<const Interf
                                               bool one_sided);
 
 /// Free water at rest: a river, a harbour, a pit that is full. It presses on bare faces with its weight over their depth, and not above
-/// its level. The pressure in the pores of the ground there is a PrescribedField. Small deformation.
+/// its level. The pressure in the pores of the ground there is a PrescribedField or an OpenSide. Small deformation.
 template <int dim>
 class FreeWater final : public StatelessContribution<dim> {
  public:

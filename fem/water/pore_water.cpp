@@ -14,6 +14,12 @@
 namespace polargrain::fem {
 namespace {
 
+/// Of an open side, over the conductance of the elements beside it: p is off by this share of its drop over an element.
+constexpr double kOpenSide = 1e6;
+
+/// Smaller parts are what rounding leaves of moved bodies and of pressures without gradient.
+constexpr double kRoundingOfWater = 1e-6;
+
 double porosity(double void_ratio) {
   return void_ratio / (1.0 + void_ratio);
 }
@@ -44,6 +50,26 @@ PoreWater<dim>::PoreWater(const Problem<dim>& problem, std::size_t field,
     for (const int e : elements->second) add_element(problem, places, field, e, water);
   }
   for (const WaterFlux& flux : options_.fluxes) add_flux(problem, places, field, flux);
+  for (std::size_t side = 0; side < options_.open_sides.size(); ++side) add_open_corners(problem, side);
+}
+
+template <int dim>
+void PoreWater<dim>::open_side(const Problem<dim>& problem, OpenSide side) {
+  options_.open_sides.push_back(std::move(side));
+  add_open_corners(problem, options_.open_sides.size() - 1);
+}
+
+template <int dim>
+void PoreWater<dim>::add_open_corners(const Problem<dim>& problem, std::size_t side) {
+  const std::vector<int> nodes = problem.mesh.nodes_on(options_.open_sides[side].on);
+  const std::set<int> there(nodes.begin(), nodes.end());
+  for (ElementOfWater& element : elements_) {
+    const std::vector<int>& own = problem.mesh.elements[static_cast<std::size_t>(element.number)].nodes;
+    for (std::size_t a = 0; a < element.pressed.size(); ++a)
+      if (there.contains(own[a]))
+        element.open.push_back({static_cast<Eigen::Index>(a),
+                                problem.mesh.nodes[static_cast<std::size_t>(own[a])](dim - 1), side, 0.0});
+  }
 }
 
 template <int dim>
@@ -64,6 +90,7 @@ void PoreWater<dim>::add_element(const Problem<dim>& problem, const FieldPlaces<
   made.nodes = problem.mesh.element_positions(number);
   made.points.resize(element.type->quadrature.size());
   place(made, made.nodes);
+  for (Point& point : made.points) point.first_volume = point.volume;
 }
 
 template <int dim>
@@ -85,6 +112,7 @@ void PoreWater<dim>::place(ElementOfWater& element, const VectorRows<dim>& nodes
     Point& point = element.points[i];
     point.volume = points[i].volume;
     point.divergence = columns.reshaped();
+    point.weights = points[i].shape;
     point.shape = std::move(shapes[i]);
     element.coupling += point.volume * point.divergence * point.shape.value.transpose();
   }
@@ -139,7 +167,8 @@ void PoreWater<dim>::add_flux(const Problem<dim>& problem, const FieldPlaces<dim
 }
 
 template <int dim>
-void PoreWater<dim>::set_stage(int, const std::vector<char>& there) {
+void PoreWater<dim>::set_stage(int stage, const std::vector<char>& there) {
+  stage_ = stage;
   is_there_ = there;
   for (ElementOfWater& element : elements_) element.is_there = stands(element.number);
   longest_ = 0.0;
@@ -166,12 +195,11 @@ void PoreWater<dim>::allocate() {
 
 template <int dim>
 std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
-  // Smaller parts are what rounding leaves of moved bodies and of pressures without gradient.
-  constexpr double kRounding = 1e-6;
   const double theta = options_.theta;
   duration_ = step.duration();
   least_pressure_ = 0.0;
   change_ = 0.0;
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(outflow_.size());
   for (ElementOfWater& element : elements_) {
     if (!element.is_there) continue;
     const Eigen::VectorXd start = step.start(element.pressed);
@@ -182,9 +210,18 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
       squeezed = squeeze(element, step);
     } else {
       squeezed = element.coupling.transpose() * moved;
+      // Strains of small deformation are shares of the first volume: in any number of steps they add up to one void ratio.
       for (Point& point : element.points)
-        point.trial_void_ratio = point.void_ratio + (1.0 + point.void_ratio) * point.divergence.dot(moved);
+        point.trial_void_ratio =
+            point.void_ratio + (1.0 + element.water->void_ratio) * point.divergence.dot(moved);
     }
+    if (loses_weight(element))
+      for (const Point& point : element.points) {
+        const double gained = options_.unit_weight * (point.volume - point.first_volume);
+        for (Eigen::Index a = 0; a < point.weights.size(); ++a)
+          forces.internal(element.moved[static_cast<std::size_t>(a * dim + dim - 1)]) +=
+              gained * point.weights(a);
+      }
     forces.internal(element.moved) -= element.coupling * (start + change);
 
     const Eigen::VectorXd mean = start + theta * change;
@@ -194,12 +231,12 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
     forces.internal(element.pressed) -= squeezed + stored + led + sunk;
     forces.parts(element.pressed) +=
         squeezed.cwiseAbs() + stored.cwiseAbs() + led.cwiseAbs() + sunk.cwiseAbs() +
-        kRounding * (element.coupling.cwiseAbs().transpose() * moved.cwiseAbs() +
-                     duration_ * (element.conduction.cwiseAbs() * mean.cwiseAbs()));
+        kRoundingOfWater * (element.coupling.cwiseAbs().transpose() * moved.cwiseAbs() +
+                            duration_ * (element.conduction.cwiseAbs() * mean.cwiseAbs()));
+    pass_open_sides(element, step, start + change, forces, given);
     change_ = std::max(change_, change.cwiseAbs().maxCoeff());
     least_pressure_ = std::min(least_pressure_, (start + change).minCoeff());
   }
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(outflow_.size());
   for (const UnitFlux& flux : fluxes_) {
     if (!stands(flux.element)) continue;
     const double brought =
@@ -210,9 +247,33 @@ std::string PoreWater<dim>::evaluate(const NodalStep& step, NodalForces& forces)
       given(flux.entries[k] - first_entry_) += brought * flux.values[k];
     }
   }
-  // The rows of free pressures vanish, with what interfaces have added before. A given flux goes through the boundary too.
+  // The rows of free pressures vanish, with what interfaces have added before. Water of a flux or an open side goes through
+  // the boundary too.
   trial_outflow_ = outflow_ + forces.internal.segment(first_entry_, outflow_.size()) - given;
   return {};
+}
+
+template <int dim>
+void PoreWater<dim>::pass_open_sides(ElementOfWater& element, const NodalStep& step,
+                                     const Eigen::VectorXd& pressures, NodalForces& forces,
+                                     Eigen::VectorXd& outside) {
+  for (OpenCorner& open : element.open) {
+    open.conductance = 0.0;
+    const OpenSide& side = options_.open_sides[open.side];
+    if (!side.holds(stage_)) continue;
+    const double free = options_.unit_weight * side.depth(step.time, open.height);
+    const double excess = pressures(open.corner) - free;
+    // Dry ground has no water to draw in.
+    if (free == 0.0 && excess <= 0.0) continue;
+    open.conductance = kOpenSide * duration_ * element.conduction(open.corner, open.corner);
+    const double left = open.conductance * excess;
+    const int entry = element.pressed[static_cast<std::size_t>(open.corner)];
+    forces.internal(entry) -= left;
+    // The excess is a rounded difference.
+    forces.parts(entry) +=
+        std::abs(left) + kRoundingOfWater * open.conductance * (std::abs(pressures(open.corner)) + free);
+    outside(entry - first_entry_) -= left;
+  }
 }
 
 template <int dim>
@@ -255,8 +316,14 @@ Eigen::MatrixXd PoreWater<dim>::tangent(std::size_t e) const {
               force * point.divergence(a - a % dim + b % dim) * point.divergence(b - b % dim + a % dim);
     }
   }
+  if (loses_weight(element))
+    for (const Point& point : element.points)
+      for (Eigen::Index a = 0; a < point.weights.size(); ++a)
+        tangent.row(a * dim + dim - 1).head(u) +=
+            (options_.unit_weight * point.volume * point.weights(a)) * point.divergence.transpose();
   tangent.bottomLeftCorner(p, u) = -element.coupling.transpose();
   tangent.bottomRightCorner(p, p) = -(element.storage + options_.theta * duration_ * element.conduction);
+  for (const OpenCorner& open : element.open) tangent(u + open.corner, u + open.corner) -= open.conductance;
   return tangent;
 }
 

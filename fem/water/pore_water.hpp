@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +30,27 @@ struct WaterFlux {
   TimeTable value;  ///< m/s, into the body
 };
 
+/// A boundary that free water may leave dry. Below the level p is that of the water; above it water leaves where p > 0, and does
+/// not come in.
+struct OpenSide {
+  std::string on;                        ///< boundary
+  TimeTable level;                       ///< height of the free water, m
+  std::shared_ptr<const Lifetime> life;  ///< stages that have it, read when they begin; null: all
+  /// In a stage the depth goes over from that of another level, as the forces of the water do.
+  double level_before = -HUGE_VAL;  ///< m
+  double start = 0.0;               ///< of the stage, s
+  double end = 0.0;                 ///< the same; not behind the start: the level holds at once
+
+  [[nodiscard]] bool holds(int stage) const { return !life || life->holds(stage); }
+  /// Of the water over a place, m; 0: dry.
+  [[nodiscard]] double depth(double time, double height) const {
+    const double depth = std::max(level.at(time) - height, 0.0);
+    if (time >= end) return depth;
+    const double share = std::max((time - start) / (end - start), 0.0);
+    return share * depth + (1.0 - share) * std::max(level_before - height, 0.0);
+  }
+};
+
 struct PoreWaterOptions {
   double unit_weight = 9.81e3;  ///< of water, N/m^3
   /// Weight of the end of a step: 1 damps, 1/2 is of second order in time and rings behind sudden changes.
@@ -35,6 +59,7 @@ struct PoreWaterOptions {
   /// p is the excess over whatever is hydrostatic, zero at the start.
   std::optional<double> table = {};
   std::vector<WaterFlux> fluxes = {};
+  std::vector<OpenSide> open_sides = {};
   /// Pa that pressures may change in a step, by their last rate; 0: steps are as long as asked for.
   double pressure_change = 0.0;
   double shortest_step = 0.0;  ///< s; no step is made shorter for that, and the first one is as long
@@ -46,13 +71,17 @@ inline constexpr const char* kPorePressure = "pore_pressure";
 /// Saturated pores that water flows through (Biot): the stress of the mesh is the effective one, the total one less p on the
 /// normal stresses. Displacements are quadratic, p is linear on the same elements (Taylor and Hood); boundaries are closed
 /// where nothing is said. In large
-/// deformation on the moved mesh, fluxes through the undeformed areas. Regions with water may go in a stage, and their fluxes with them; regions that come are dry. docs/theory/water.md
+/// deformation on the moved mesh, fluxes through the undeformed areas; where gravity acts on the water, ground loses the weight
+/// of the water that is squeezed out. Regions with water may go in a stage, and their fluxes with them; regions that come are dry. docs/theory/water.md
 template <int dim>
 class PoreWater final : public Contribution<dim> {
  public:
   /// @param field number of the field of pore pressures @param regions which the field belongs to
   PoreWater(const Problem<dim>& problem, std::size_t field, std::map<std::string, WaterOfRegion> regions,
             PoreWaterOptions options);
+
+  /// Adds a side to those of the options: stages are read when the water is there. @param problem that it was made for
+  void open_side(const Problem<dim>& problem, OpenSide side);
 
   [[nodiscard]] std::string name() const override { return "pore water"; }
   [[nodiscard]] std::size_t elements() const override { return elements_.size(); }
@@ -94,11 +123,20 @@ class PoreWater final : public Contribution<dim> {
   /// A point of an element.
   struct Point {
     double volume;
+    double first_volume;         ///< undeformed
     double void_ratio;           ///< committed
     double trial_void_ratio;     ///< of the last evaluation
     double trial_pressure;       ///< the same, in large deformation
     Eigen::VectorXd divergence;  ///< volume strain = divergence . displacements of the element
+    Eigen::VectorXd weights;     ///< shape functions of the displacements
     ShapeFunctions<dim> shape;   ///< of the corners, gradients by position
+  };
+  /// A corner on an open side.
+  struct OpenCorner {
+    Eigen::Index corner;
+    double height;       ///< m
+    std::size_t side;    ///< of the options
+    double conductance;  ///< volume let out by the excess of p, m^3/Pa, of the last evaluation; 0: closed
   };
   struct ElementOfWater {
     int number;  ///< in the mesh
@@ -110,6 +148,7 @@ class PoreWater final : public Contribution<dim> {
     std::vector<int> moved;    ///< entries of the displacements
     std::vector<int> pressed;  ///< entries of the pressures
     std::vector<Point> points;
+    std::vector<OpenCorner> open;
     Eigen::MatrixXd coupling;    ///< Q: a row a displacement, a column a pressure, m^2
     Eigen::MatrixXd storage;     ///< S
     Eigen::MatrixXd conduction;  ///< H
@@ -126,6 +165,15 @@ class PoreWater final : public Contribution<dim> {
                    const WaterOfRegion& water);
   void add_flux(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field,
                 const WaterFlux& flux);
+  void add_open_corners(const Problem<dim>& problem, std::size_t side);
+  /// Lets water through the open sides beside an element. @param pressures of its corners at the end of the step, Pa
+  /// @param outside takes the volume that leaves, negative, by pressure
+  void pass_open_sides(ElementOfWater& element, const NodalStep& step, const Eigen::VectorXd& pressures,
+                       NodalForces& forces, Eigen::VectorXd& outside);
+  /// Whether the ground weighs less when water has left it. Body loads know the first volume alone.
+  [[nodiscard]] bool loses_weight(const ElementOfWater& element) const {
+    return is_large_ && options_.table && !element.water->undrained;
+  }
   [[nodiscard]] bool stands(int element) const {
     return is_there_.empty() || is_there_[static_cast<std::size_t>(element)] != 0;
   }
@@ -144,9 +192,10 @@ class PoreWater final : public Contribution<dim> {
   std::vector<ElementOfWater> elements_;
   std::vector<UnitFlux> fluxes_;
   std::vector<char> is_there_;  ///< by element of the mesh; empty: all are
-  Eigen::Index first_entry_;    ///< of the pressures in nodal vectors
-  Eigen::VectorXd outflow_;     ///< by pressure, committed
-  Eigen::VectorXd flow_;        ///< the same, a second
+  int stage_ = 0;
+  Eigen::Index first_entry_;  ///< of the pressures in nodal vectors
+  Eigen::VectorXd outflow_;   ///< by pressure, committed
+  Eigen::VectorXd flow_;      ///< the same, a second
   Eigen::VectorXd trial_outflow_;
   double duration_ = 0.0;  ///< of the last evaluation
   double change_ = 0.0;    ///< largest one of a pressure, of the last evaluation

@@ -318,6 +318,92 @@ TEST(WaterAtWalls, ALevelOfAStageMovesNoGround) {
   EXPECT_NEAR(run.last("p"), 10e3, 1e-3);
 }
 
+/// A column of 2 m whose water stands at 1.5 m when it begins. @param in_space whether it is a box
+std::string dry_bed(bool in_space, const std::string& level, const std::string& bottom = "") {
+  return "title: Free water below and above a bed\n"
+         "continuum: cauchy\n" +
+         std::string(in_space ? "mesh: {box: {size: [1 m, 1 m, 2 m], elements: [1, 1, 2]}, element: H20R}\n"
+                              : "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 4]}}\n") +
+         "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+         "regions: {all: clay}\n"
+         "water: {permeability: 1e-5 m/s, level: 1.5 m, unit_weight: 10 kN/m3}\n"
+         "boundary:\n"
+         "  - {on: [left, right], fix: [u1]}\n" +
+         (in_space ? "  - {on: [front, back], fix: [u2]}\n" : "") + "  - {on: bottom, fix: [" +
+         (in_space ? "u3" : "u2") + "]" + bottom + "}\n  - {on: top, free_water: " + level +
+         "}\n"
+         "body: [{unit_weight: 20 kN/m3}]\n"
+         "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5}]\n"
+         "steps: {duration: 12 d, count: 24, tolerance: 1e-8}\n"
+         "monitors: {p: {on: top, water: pressure}, base: {on: bottom, reaction: " +
+         (in_space ? "u3" : "u2") + "}, u: {on: top, displacement: " + (in_space ? "u3" : "u2") +
+         "}, out: {on: top, water: outflow}, flow: {on: top, water: flow}}\n";
+}
+
+// A dry bed has no water to give and no load: with the same level inside and outside all stays at rest.
+TEST(WaterAtWalls, FreeWaterBelowABedDoesNothing) {
+  for (const bool in_space : {false, true})
+    for (const char* const bottom : {"", ", water_level: 1.5 m"}) {
+      const RunOfLaws run(dry_bed(in_space, "1.5 m", bottom));
+      EXPECT_NEAR(run.last("p"), -5e3, 0.1) << in_space << bottom;
+      EXPECT_NEAR(run.last("u"), 0.0, 1e-8) << in_space << bottom;
+      EXPECT_NEAR(run.last("out"), 0.0, 1e-7) << in_space << bottom;
+      EXPECT_NEAR(run.last("base"), 40e3, 1e-2) << in_space << bottom;
+    }
+}
+
+// Where water comes from below, it leaves by the dry bed at p = 0: 10 kPa more than at rest, over 2 m.
+TEST(WaterAtWalls, WaterLeavesByADryBed) {
+  for (const bool in_space : {false, true}) {
+    const RunOfLaws run(dry_bed(in_space, "1.5 m", ", pore_pressure: 30 kPa"));
+    EXPECT_NEAR(run.last("p"), 0.0, 0.1) << in_space;
+    EXPECT_NEAR(run.last("flow"), 1e-5 * 0.5, 1e-5 * 0.5 * 1e-4) << in_space;
+  }
+}
+
+// A level that rises over a bed and falls below it again.
+TEST(WaterAtWalls, ABedIsFloodedAndFallsDry) {
+  for (const bool in_space : {false, true}) {
+    const RunOfLaws run(
+        dry_bed(in_space, "[[0 d, 1.5 m], [1 d, 1.5 m], [5 d, 4 m], [6 d, 4 m], [10 d, 1.5 m]]"));
+    EXPECT_NEAR(run.value("p", 2), -5e3, 0.1) << in_space << " before it rises";
+    EXPECT_NEAR(run.value("p", 12), 20e3, 1.0) << in_space << " 2 m of water";
+    EXPECT_NEAR(run.value("base", 12), 60e3, 1.0) << in_space;
+    EXPECT_LT(run.value("out", 12), 0.0) << in_space << " water comes in";
+    EXPECT_NEAR(run.last("p"), 0.0, 1.0) << in_space << " dry, and full of water";
+    EXPECT_NEAR(run.last("base"), 40e3, 1.0) << in_space;
+  }
+}
+
+// Stages whose level is below the bed, and above it again: load and pressure go one way along the stage.
+TEST(WaterAtWalls, ALevelOfAStageMayLeaveABedDry) {
+  const RunOfLaws run(
+      "title: A sea that falls below its bed and comes back\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 2]}}\n"
+      "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+      "regions: {all: clay}\n"
+      "water: {permeability: 1e-5 m/s, level: 4 m, unit_weight: 10 kN/m3}\n"
+      "boundary:\n"
+      "  - {on: [left, right], fix: [u1]}\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {name: sea, on: top, free_water: 4 m}\n"
+      "body: [{unit_weight: 20 kN/m3}]\n"
+      "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 20 kPa}]\n"
+      "steps:\n"
+      "  tolerance: 1e-8\n"
+      "  stages:\n"
+      "    - {name: rest, until: 1 d, count: 1}\n"
+      "    - {name: ebb, until: 11 d, count: 4, boundary: [{name: sea, on: top, free_water: 1 m}]}\n"
+      "    - {name: flood, until: 21 d, count: 4, boundary: [{name: sea, on: top, free_water: 5 m}]}\n"
+      "monitors: {u: {on: top, displacement: u2}, p: {on: top, water: pressure}}\n");
+  for (std::size_t step = 0; step <= run.steps(); ++step)
+    EXPECT_NEAR(run.value("u", step), 0.0, 1e-6) << "step " << step << "; 1 kPa moves it by 0.17 mm";
+  EXPECT_NEAR(run.value("p", 3), 10e3, 10.0) << "half way from 2 m of water to nothing";
+  EXPECT_NEAR(run.value("p", 5), 0.0, 10.0);
+  EXPECT_NEAR(run.last("p"), 30e3, 10.0);
+}
+
 // A face that is wet in part, of one element over the height: gw h^2 / 2 and gw h^3 / 6 of the moment, at any level.
 TEST(WaterAtWalls, FreeWaterInSpaceEndsAtItsLevel) {
   for (const char* const element : {"H20R", "H20"})

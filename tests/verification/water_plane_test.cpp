@@ -138,4 +138,33 @@ TEST(water_plane, strip_load_at_once_and_while_it_consolidates) {
   EXPECT_NEAR(pressure(2, -1), 0.10814, 0.005);
 }
 
+// Strains of small deformation are shares of the first volume: e = e0 + (1 + e0) strain, however many steps lead there.
+TEST(water_plane, void_ratio_does_not_know_the_number_of_steps) {
+  constexpr double kStrain = 0.2;
+  for (const int steps : {2, 8, 200}) {
+    Problem<2> problem;
+    problem.mesh = rectangle({{1.0, 1.0}, {1, 1}});
+    problem.continuum = Continuum::cauchy;
+    problem.materials["all"] = elastic<2>(1e7, 0.2);
+    const Permeability as_void_ratio = Permeability::table(PiecewiseLinear({{0.1, 0.1}, {2.0, 2.0}}));
+    const auto water = add_pore_water<2>(problem, {{"all", {as_void_ratio, 0.8, 2.2e9}}}, {});
+    water->allocate();
+    const Eigen::Index size = problem.places().size();
+    const auto squeezed_by = [&](double strain) {
+      Eigen::VectorXd nodal = Eigen::VectorXd::Zero(size);
+      for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node)
+        nodal(entry_of<2>(static_cast<Eigen::Index>(node), Dof::u2)) = -strain * problem.mesh.nodes[node](1);
+      return nodal;
+    };
+    for (int step = 0; step < steps; ++step) {
+      const Eigen::VectorXd start = squeezed_by(kStrain * step / steps);
+      const Eigen::VectorXd increment = squeezed_by(kStrain * (step + 1) / steps) - start;
+      NodalForces forces{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
+      EXPECT_EQ(water->evaluate({1.0 * step, 1.0 * (step + 1), start, increment}, forces), "");
+      water->commit();
+    }
+    EXPECT_NEAR(water->permeability(0), 0.8 - 1.8 * kStrain, 1e-12) << steps << " steps";
+  }
+}
+
 }  // namespace
