@@ -108,7 +108,9 @@ def shaking(study, kind, seed):
     speed = math.sqrt(-(force[4] - force[1]) / (3 * WIDTH * STRAIN) / DENSITY)
     first = math.pi * speed / (2 * height)
     frequency, damping = 0.7 * first, 0.2 * first
-    transfer = abs(1 / cmath.cos(cmath.sqrt(frequency ** 2 - 1j * damping * frequency) / speed * height))
+    # Damped relative to the base: the motion over that of the base, by itself.
+    share = frequency / (frequency - 1j * damping)
+    transfer = abs(1 + share * (1 / cmath.cos(cmath.sqrt(frequency ** 2 - 1j * damping * frequency) / speed * height) - 1))
     duration = cycles * 2 * math.pi / frequency
     times = [duration * k / (60 * cycles) for k in range(60 * cycles + 1)]
 

@@ -8,6 +8,7 @@
 #include "common/elementary_functions.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/element/kinematics.hpp"
+#include "fem/solver/base_motion.hpp"
 #include "fem/solver/explicit_rate.hpp"
 
 namespace polargrain::coupler {
@@ -96,6 +97,24 @@ bool iterates(const Entry& document) {
 
 namespace {
 
+/// Damping acts on the motion relative to the base, so there must be one base.
+template <int dim>
+void check_base(const fem::Problem<dim>& problem, Section& steps) {
+  const int stages = std::max(1, static_cast<int>(problem.stages.size()));
+  for (int stage = 0; stage < stages; ++stage)
+    for (const fem::Dof dof : fem::node_dofs<dim>()) {
+      if (fem::is_rotation(dof)) continue;
+      const fem::BaseAlong<dim> base = fem::base_along(problem, stage, dof);
+      if (base.other == nullptr) continue;
+      return steps.fault(
+          "mass_damping",
+          fmt::format(
+              "mass_damping: it damps the motion relative to the base, and along {} '{}' and '{}' move "
+              "differently; accelerate both alike, or leave mass_damping out",
+              fem::name_of<dim>(dof), base.item->on, base.other->on));
+    }
+}
+
 /// Steps follow from masses and stiffness; nothing is to be chosen but damping.
 void read_real_time(Section& steps, CaseParts& parts) {
   Case& result = parts.result;
@@ -106,6 +125,8 @@ void read_real_time(Section& steps, CaseParts& parts) {
       damping != nullptr && damping->text.find('%') != std::string::npos)
     steps.fault("mass_damping",
                 "mass_damping: not a damping ratio; the ratio D at the frequency f is 4 pi f D");
+  if (result.explicit_options.mass_damping > 0.0)
+    result.with_problem([&](const auto& problem) { check_base(problem, steps); });
   for (const char* const key : {"pace", "explicit_steps", "dem_steps", "error", "rest_at_output"})
     if (steps.find(key) != nullptr)
       steps.fault(key,

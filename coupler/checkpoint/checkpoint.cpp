@@ -18,7 +18,7 @@ using hdf5::Handle;
 using hdf5::read_array;
 using hdf5::write_array;
 
-constexpr std::int64_t kVersion = 9;
+constexpr std::int64_t kVersion = 10;
 constexpr char kEnd = '\0';  ///< behind each word of a list
 constexpr std::int64_t kNoState = -1;
 

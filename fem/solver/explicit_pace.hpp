@@ -65,8 +65,9 @@ class ExplicitPace {
 
 /// Shares that a step takes away, by unknown.
 struct DampingOfSteps {
-  Eigen::VectorXd speed;  ///< of the velocity: in real time ExplicitOptions::mass_damping times the step
-  Eigen::VectorXd lag;    ///< of the speed of a micro-rotation over the spin of the continuum there
+  /// Of the velocity relative to the base: in real time ExplicitOptions::mass_damping times the step.
+  Eigen::VectorXd speed;
+  Eigen::VectorXd lag;  ///< of the speed of a micro-rotation over the spin of the continuum there
 };
 
 /// @param seconds of a step in real time; nothing: it has no real time

@@ -160,6 +160,8 @@ class Newton {
   void evaluate(Iterate& iterate, StepReport& report);
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
+  /// Notes how the mesh has moved where elements come that were not there before (SolverState::placed_with).
+  void note_placed(const std::vector<char>& there_before);
   /// Lets the contributions of a stage come and go, from the state of the stage before. @param at_rest the run begins with it
   void begin_contributions(int stage, bool at_rest);
   /// Evaluates the contributions at the committed state and commits them. @returns why one of them cannot

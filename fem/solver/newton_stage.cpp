@@ -26,10 +26,12 @@ void Newton<dim>::enter_stage() {
 
 template <int dim>
 void Newton<dim>::begin_stage(int stage) {
+  const std::vector<char> there_before = elements_in_stage(problem, state.stage);
   state.offsets = Constraints<dim>::new_offsets(problem, state, stage);
   begin_contributions(stage, false);
   state.stage = stage;
   enter_stage();
+  note_placed(there_before);
   if (problem.deformation == Deformation::large) {
     if (const std::string inverted = discretisation.move_to(state.displacement); !inverted.empty())
       throw RunError(fmt::format("stage '{}': {} by what has moved before it came",
@@ -50,6 +52,18 @@ void Newton<dim>::begin_stage(int stage) {
     throw RunError(
         fmt::format("stage '{}': {}", problem.stages.at(static_cast<std::size_t>(stage)), message));
   withhold_imbalance();
+}
+
+template <int dim>
+void Newton<dim>::note_placed(const std::vector<char>& there_before) {
+  if (there_before.empty() || problem.deformation == Deformation::large) return;
+  const std::vector<Increment<dim>> moved = discretisation.increments(state.displacement);
+  for (std::size_t point = 0; point < moved.size(); ++point) {
+    const auto element = static_cast<std::size_t>(discretisation.element_of_point(point));
+    if (there_before[element] != 0 || !discretisation.is_there(element)) continue;
+    state.placed_with.resize(moved.size(), Cosserat<dim>::Gradient::Zero());
+    state.placed_with[point] = moved[point].displacement_gradient;
+  }
 }
 
 template <int dim>
@@ -94,6 +108,10 @@ void Newton<dim>::save_stage(ArchiveWriter& archive) const {
   write("stage_offsets", state.offsets);
   write("stage_shown_from", state.shown_from);
   write("stage_withheld", withheld_);
+  std::vector<double> placed;
+  for (const typename Cosserat<dim>::Gradient& h : state.placed_with)
+    placed.insert(placed.end(), h.data(), h.data() + h.size());
+  archive.write("stage_placed_with", std::span<const double>(placed));
 }
 
 template <int dim>
@@ -111,6 +129,13 @@ void Newton<dim>::restore_stage(ArchiveReader& archive) {
   state.offsets = read("stage_offsets");
   state.shown_from = read("stage_shown_from");
   withheld_ = read("stage_withheld");
+  const std::vector<double> placed = archive.doubles("stage_placed_with");
+  constexpr std::size_t kSize = dim * dim;
+  if (!placed.empty() && placed.size() != kSize * discretisation.points())
+    throw RunError("the checkpoint holds regions placed on another mesh");
+  state.placed_with.clear();
+  for (std::size_t at = 0; at < placed.size(); at += kSize)
+    state.placed_with.emplace_back(Eigen::Map<const typename Cosserat<dim>::Gradient>(&placed[at]));
   if (!problem.stages.empty() || state.offsets.size() > 0) enter_stage();
 }
 
@@ -127,6 +152,7 @@ void Newton<dim>::count_supports_from_here() {
 template void Newton<2>::enter_stage();
 template void Newton<2>::begin_stage(int);
 template Attempt Newton<2>::begin_at_rest();
+template void Newton<2>::note_placed(const std::vector<char>&);
 template void Newton<2>::begin_contributions(int, bool);
 template std::string Newton<2>::contribute_at_rest(std::span<const Response<2>>);
 template void Newton<2>::save_stage(ArchiveWriter&) const;
@@ -135,6 +161,7 @@ template void Newton<2>::count_supports_from_here();
 template void Newton<3>::enter_stage();
 template void Newton<3>::begin_stage(int);
 template Attempt Newton<3>::begin_at_rest();
+template void Newton<3>::note_placed(const std::vector<char>&);
 template void Newton<3>::begin_contributions(int, bool);
 template std::string Newton<3>::contribute_at_rest(std::span<const Response<3>>);
 template void Newton<3>::save_stage(ArchiveWriter&) const;

@@ -474,7 +474,8 @@ double Solver<dim>::volume_strain() const {
 template <int dim>
 std::string Solver<dim>::left_out() const {
   if (problem().deformation == Deformation::large) return {};
-  return left_out_by_small_deformation(implementation_->discretisation, state().displacement);
+  return left_out_by_small_deformation(implementation_->discretisation, state().displacement,
+                                       state().placed_with);
 }
 
 template class Solver<2>;

@@ -70,14 +70,16 @@ struct ExplicitOptions {
   /// Force residual that the nodes come to at the end of the row, their boundaries held; 0: they go on as they are.
   double rest = 0.0;
   int most_rest_steps = 2000;  ///< for that
-  double mass_damping = 0.0;  ///< 1/s, in real time: forces of -mass_damping * mass * velocity, moments alike
+  /// 1/s, in real time: forces of -mass_damping * mass * velocity, moments alike. The velocity is that
+  /// relative to the base (BaseMotion): a body that the base carries along evenly is not dragged.
+  double mass_damping = 0.0;
 };
 
 /// Energies of steps in real time, J (in the plane per m of thickness), since their begin.
 struct Energies {
   double kinetic = 0.0;
   double internal = 0.0;  ///< work of the stresses
-  double external = 0.0;  ///< work of loads and supports
+  double external = 0.0;  ///< work of loads and supports, and of the base through the damping
   double damped = 0.0;    ///< by ExplicitOptions::mass_damping, and of micro-rotations
   double absorbed = 0.0;  ///< by quiet boundaries
 
@@ -180,6 +182,9 @@ struct SolverState {
   int stage = 0;
   Eigen::VectorXd offsets;  ///< by entry: where supports that began in a later stage count from; empty before
   Eigen::VectorXd shown_from;  ///< results show displacements less these; empty: from zero
+  /// By point: the displacement gradient with which its region was placed, from which its strain counts. Empty before a region
+  /// is placed, and in large deformation.
+  std::vector<typename Cosserat<dim>::Gradient> placed_with;
   // Of steps in real time.
   double seconds = 0.0;          ///< that a step may have; 0: steps have no real time
   Eigen::VectorXd held;          ///< nodal forces by which quiet boundaries held the start

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "fem/solver/base_motion.hpp"
 #include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/nodal_spin.hpp"
 #include "fem/solver/solver_implementation.hpp"
@@ -31,6 +32,7 @@ class ExplicitRow {
         report_(report),
         damping_(damping_of_steps(solver.problem, solver.constraints, options,
                                   solver.state.seconds > 0.0 ? std::optional(seconds) : std::nullopt)),
+        base_(solver.problem, solver.constraints, solver.state.stage),
         spin_(solver.state.velocity.isZero(0.0) ? Eigen::VectorXd::Zero(solver.constraints.unknowns())
                                                 : spin_of_last_step()),
         forces_(solver.constraints.restrict_to_free(solver.unbalanced())) {}
@@ -41,6 +43,7 @@ class ExplicitRow {
     Step step = next();
     state.velocity = std::move(step.velocity);
     state.energies.damped += step.damped;
+    state.energies.external -= step.supplied;  // works count from it
     state.energies.absorbed += step.absorbed;
     const Attempt went = solver_.go_on(time, released, seconds_ * state.velocity, report_);
     if (!went.converged) {
@@ -102,6 +105,7 @@ class ExplicitRow {
     now.kinetic = 0.5 * state.velocity.cwiseProduct(state.mass).dot(step.velocity);
     now.internal = state.internal_work - state.energies.internal;
     now.external = state.external_work - state.energies.external;
+    now.external += step.supplied_first_half;
     now.damped += step.damped_first_half;
     now.absorbed += step.absorbed_first_half;
     return now;
@@ -113,8 +117,10 @@ class ExplicitRow {
     Eigen::VectorXd velocity;
     double damped = 0.0;               ///< energy over the step in whose middle the nodes are
     double absorbed = 0.0;             ///< the same through quiet boundaries
+    double supplied = 0.0;             ///< the same, by the base through the damping
     double damped_first_half = 0.0;    ///< of that, until now
     double absorbed_first_half = 0.0;  ///< the same
+    double supplied_first_half = 0.0;  ///< the same
   };
 
   [[nodiscard]] Step next() const {
@@ -122,7 +128,8 @@ class ExplicitRow {
     const Eigen::VectorXd& mass = solver_.state.mass;
     Step step;
     const Eigen::VectorXd damping = damping_.speed + damping_.lag;
-    const Eigen::VectorXd pull = damping_.lag.cwiseProduct(spin_);
+    const Eigen::VectorXd base = base_.velocity(solver_.state.time);
+    const Eigen::VectorXd pull = damping_.lag.cwiseProduct(spin_) + damping_.speed.cwiseProduct(base);
     step.velocity = ((1.0 - 0.5 * damping.array()) * velocity.array() +
                      seconds_ * forces_.array() / mass.array() + pull.array()) /
                     (1.0 + 0.5 * damping.array());
@@ -134,8 +141,11 @@ class ExplicitRow {
     }
     const Eigen::VectorXd force =
         mass.cwiseProduct(0.5 * damping.cwiseProduct(velocity + step.velocity) - pull);
-    step.damped = 0.5 * force.dot(velocity + step.velocity);
-    step.damped_first_half = 0.5 * force.dot(velocity);
+    // The dampers stand on the base. They take the work on the way relative to it, and the base supplies the rest.
+    step.supplied = -force.dot(base);
+    step.supplied_first_half = 0.5 * step.supplied;
+    step.damped = 0.5 * force.dot(velocity + step.velocity) + step.supplied;
+    step.damped_first_half = 0.5 * force.dot(velocity) + step.supplied_first_half;
     return step;
   }
 
@@ -153,6 +163,7 @@ class ExplicitRow {
   double seconds_;
   StepReport& report_;
   DampingOfSteps damping_;
+  BaseMotion<dim> base_;
   Eigen::VectorXd spin_;    ///< see spin_of_last_step
   Eigen::VectorXd forces_;  ///< out of balance, in the order of the equations
 };

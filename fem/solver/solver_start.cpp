@@ -129,6 +129,12 @@ StartReport Solver<dim>::start_from(ArchiveReader& archive, const std::vector<st
   constexpr auto components = static_cast<std::size_t>(Cosserat<dim>::components);
   const std::vector<typename EndOfRun<dim>::Point> points = end.points();
   if (strains.size() != components * points.size()) throw RunError("its strains are damaged");
+  using Gradient = typename Cosserat<dim>::Gradient;
+  constexpr auto of_gradient = static_cast<std::size_t>(dim * dim);
+  const std::vector<double> placed = archive.doubles("stage_placed_with");
+  if (!placed.empty() && placed.size() != of_gradient * points.size())
+    throw RunError("its placed regions are damaged");
+  if (!placed.empty()) self.state.placed_with.assign(self.discretisation.points(), Gradient::Zero());
   // Numbers of the points of each material, by their number among them.
   std::vector<std::vector<std::size_t>> numbers(end.material_of_region.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -151,9 +157,12 @@ StartReport Solver<dim>::start_from(ArchiveReader& archive, const std::vector<st
       report.farthest = std::max(report.farthest, found->distance);
       typename Cosserat<dim>::Vector& strain = self.state.strain[point];
       strain.setZero();
-      for (const auto& [other, weight] : found->mean.parts)
-        strain += weight * Eigen::Map<const typename Cosserat<dim>::Vector>(
-                               &strains[components * numbers[theirs][other]]);
+      for (const auto& [other, weight] : found->mean.parts) {
+        const std::size_t number = numbers[theirs][other];
+        strain += weight * Eigen::Map<const typename Cosserat<dim>::Vector>(&strains[components * number]);
+        if (!placed.empty())
+          self.state.placed_with[point] += weight * Eigen::Map<const Gradient>(&placed[of_gradient * number]);
+      }
       means.push_back(found->mean);
     }
     if (!from) continue;  // it only comes later

@@ -27,6 +27,8 @@ class TimeTable {
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
   [[nodiscard]] double largest_magnitude() const;
+  /// Whether it is of_accelerations.
+  [[nodiscard]] bool is_accelerated() const { return !motions_.empty(); }
   /// Whether both have the same values at all times, whatever their points: a value that is reached at time 1 and a table
   /// that says so are equal, to round-off of 1e-12 of the larger magnitude.
   bool operator==(const TimeTable& other) const;
