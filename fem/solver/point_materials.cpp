@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
 #include "fem/material/begins_in_ground.hpp"
+#include "fem/solver/stages.hpp"
 
 namespace polargrain::fem {
 
@@ -41,9 +42,13 @@ PointMaterials<dim>::PointMaterials(const Problem<dim>& problem, const Discretis
 template <int dim>
 void PointMaterials<dim>::set_initial_stresses(const Problem<dim>& problem,
                                                const Discretisation<dim>& discretisation) {
+  // The ground of time zero: a part that a stage places has a stress where an item names its region.
+  std::vector<char> at_start = elements_in_stage(problem, 0);
+  if (at_start.empty()) at_start.assign(discretisation.elements(), 1);
   for (const InitialStress<dim>& item : problem.initial_stresses) {
-    std::vector<char> here(discretisation.elements(), item.region.empty() ? 1 : 0);
+    std::vector<char> here = at_start;
     if (!item.region.empty()) {
+      here.assign(discretisation.elements(), 0);
       for (const int e : problem.mesh.regions.at(item.region)) here[static_cast<std::size_t>(e)] = 1;
     }
     for (Batch& batch : batches_) {

@@ -82,7 +82,7 @@ struct BodyLoad {
 template <int dim>
 struct InitialStress {
   std::function<typename Cosserat<dim>::Vector(const typename Cosserat<dim>::Place&)> stress;
-  std::string region = "";  ///< every element when empty
+  std::string region = "";  ///< every element that is there at time 0 when empty
 };
 
 enum class Deformation {

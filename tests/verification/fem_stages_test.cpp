@@ -244,6 +244,80 @@ TEST(fill, that_comes_with_the_stress_of_its_weight_moves_with_the_ground_as_a_b
   }
 }
 
+/// Ground of 10 m settles by 18e4 * 10^2 / 2 / 26.9e6 = 0.33 m. The lower nodes of 1 m of fill have gone along when it comes, and
+/// its upper ones have not: that is no strain of the fill, whose own is below 1 %.
+TEST(fill, that_comes_on_settled_ground_is_strained_from_then_on) {
+  const auto problem = [] {
+    Problem<2> made;
+    made.continuum = Continuum::cauchy;
+    made.mesh = rectangle({{1.0, 11.0}, {1, 11}});
+    cut_out(made.mesh, "fill", {0, 10}, {1, 11});
+    made.materials = {{"fill", elastic()}, {"rest", elastic()}};
+    made.lifetimes["fill"] = {1, INT_MAX};
+    made.stages = {"ground", "fill", "press"};
+    made.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                       {"right", Dof::u1, kZeroOfStages},
+                       {"bottom", Dof::u2, kZeroOfStages}};
+    made.body_loads = {gravity(10.0 * kWeightOfStages)};
+    made.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(5e6), .life = {2, INT_MAX}}};
+    return made;
+  };
+  Solver<2> solver(problem(), tight());
+  ASSERT_TRUE(solver.equilibrate().converged);
+  EXPECT_LT(displacement_at(solver, {0, 10}, Dof::u2), -0.3);
+  solver.begin_stage(1);
+  ASSERT_TRUE(solver.advance(1.0).converged);
+  EXPECT_EQ(solver.left_out(), "");
+  MemoryArchive archive;
+  solver.save(archive);
+  Solver<2> resumed(problem(), tight());
+  resumed.restore(archive);
+  EXPECT_EQ(resumed.left_out(), "");
+  Problem<2> all = problem();
+  all.lifetimes.clear();
+  all.stages.clear();
+  all.boundary_loads.clear();
+  Solver<2> after(std::move(all), {});
+  ASSERT_TRUE(after.start_from(archive, {"fill", "rest"}).step.converged);
+  EXPECT_EQ(after.left_out(), "");
+  // What strains all of it is told: (18e4 * 10.79 + 5e6) / 26.9e6 at the lowest points.
+  solver.begin_stage(2);
+  ASSERT_TRUE(solver.advance(2.0).converged);
+  EXPECT_NE(solver.left_out().find("element 0 has been strained by 0.26:"), std::string::npos)
+      << solver.left_out();
+}
+
+/// A stress without a region is that of the ground at time zero; above its surface it would be a tension in the fill.
+TEST(fill, that_comes_on_ground_of_a_given_stress_begins_without_one) {
+  const auto stress_of_fill = [](const std::string& named) {
+    Problem<2> problem;
+    problem.continuum = Continuum::cauchy;
+    problem.mesh = rectangle({{1.0, 3.0}, {1, 3}});
+    cut_out(problem.mesh, "fill", {0, 2}, {1, 3});
+    problem.materials = {{"fill", elastic()}, {"rest", elastic()}};
+    problem.lifetimes["fill"] = {1, INT_MAX};
+    problem.stages = {"ground", "fill"};
+    problem.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                          {"right", Dof::u1, kZeroOfStages},
+                          {"bottom", Dof::u2, kZeroOfStages}};
+    problem.initial_stresses = {{[](const Eigen::Vector2d& place) {
+                                   Vector7 stress = Vector7::Zero();
+                                   stress(k22) = -kWeightOfStages * (2.0 - place.y());
+                                   return stress;
+                                 },
+                                 named}};
+    problem.body_loads = {gravity(kWeightOfStages)};
+    problem.body_loads.front().region = "rest";
+    Solver<2> solver(std::move(problem), tight());
+    EXPECT_TRUE(solver.equilibrate().converged);
+    solver.begin_stage(1);
+    EXPECT_TRUE(solver.advance(1.0).converged);
+    return solver.state().responses.back().stress(k22);
+  };
+  EXPECT_NEAR(stress_of_fill(""), 0.0, 1e-6);
+  EXPECT_NEAR(stress_of_fill("rest"), 0.0, 1e-6);
+}
+
 /// A block that is pressed from above between two walls.
 Problem<2> pressed_block(bool has_right_wall) {
   Problem<2> problem;
