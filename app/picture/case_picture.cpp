@@ -19,17 +19,11 @@ namespace {
 constexpr const char* kHeadingOfPlaces = "<h2>Boundaries and node sets</h2>\n";
 
 /// Length (plane, m) or area (space, m^2) of a boundary; of the parts of the outline in no boundary where the name is empty.
-double extent_of(const fem::Mesh<2>& mesh, const std::string& name) {
-  double length = 0.0;
-  for (const OutlineEdge& edge : edges_of(mesh, name)) length += edge.length;
-  return length;
-}
-double extent_of(const fem::Mesh<3>& mesh, const std::string& name) {
-  double area = 0.0;
-  for (const OuterFace& face : outer_faces(mesh))
-    if (name.empty() ? face.names.empty() : std::ranges::find(face.names, name) != face.names.end())
-      area += face.area;
-  return area;
+template <int dim>
+double extent_of(const fem::Mesh<dim>& mesh, const std::string& name) {
+  double extent = 0.0;
+  for (const OutlineSide<dim>& side : sides_of(mesh, name)) extent += side.size;
+  return extent;
 }
 
 template <int dim>

@@ -9,6 +9,8 @@
 
 #include "app/page/page.hpp"
 #include "app/picture/symbols.hpp"
+#include "app/remarks/outline.hpp"
+#include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -19,8 +21,9 @@ struct Frame {
   Eigen::Vector2d size;
   double scale;
 
-  explicit Frame(const Body& body)
-      : least(body.least), size(body.size()), scale(kLongerSide / std::max(size.maxCoeff(), 1e-300)) {}
+  explicit Frame(const fem::BoxAround<2>& box)
+      : least(box.least), size(box.sides()), scale(kLongerSide / std::max(size.maxCoeff(), 1e-300)) {}
+  [[nodiscard]] Eigen::Vector2d middle() const { return least + 0.5 * size; }
   [[nodiscard]] double width() const { return scale * size.x() + 2.0 * kMargin; }
   [[nodiscard]] double height() const { return scale * size.y() + 2.0 * kMargin; }
   [[nodiscard]] Eigen::Vector2d at(const Eigen::Vector2d& place) const {
@@ -35,12 +38,12 @@ Eigen::Vector2d flipped(const Eigen::Vector2d& direction) {
 }
 
 /// Mean outward normal of the edges of each node on the outline.
-std::map<int, Eigen::Vector2d> normals_of(const std::vector<OutlineEdge>& edges) {
+std::map<int, Eigen::Vector2d> normals_of(const std::vector<OutlineSide<2>>& edges) {
   std::map<int, Eigen::Vector2d> normals;
-  for (const OutlineEdge& edge : edges)
+  for (const OutlineSide<2>& edge : edges)
     for (const int node : edge.nodes) {
       auto& normal = normals.try_emplace(node, Eigen::Vector2d::Zero()).first->second;
-      normal += edge.length * edge.normal;
+      normal += edge.size * edge.normal;
     }
   for (auto& [node, normal] : normals)
     if (normal.norm() > 0.0) normal.normalize();
@@ -105,14 +108,14 @@ std::string water_drawn(const PlaceConditions<2>& place, const Scene& scene, con
   // A level far above the body is shown at the edge of the drawing: the table has its value.
   constexpr double kEdge = 14.0;
   const double height =
-      std::clamp(frame.at({scene.body().least.x(), *place.water_level}).y(), kEdge, frame.height() - kEdge);
+      std::clamp(frame.at({frame.least.x(), *place.water_level}).y(), kEdge, frame.height() - kEdge);
   return drawn + water_surface({left - kArrow, height}, {right + kArrow, height});
 }
 
 std::string symbols_of(const PlaceConditions<2>& place, const Scene& scene, const Frame& frame) {
   std::map<int, Eigen::Vector2d> normals;
-  if (place.is_boundary) normals = normals_of(edges_of(scene.mesh(), place.name));
-  const Eigen::Vector2d middle = 0.5 * (scene.body().least + scene.body().largest);
+  if (place.is_boundary) normals = normals_of(sides_of(scene.mesh(), place.name));
+  const Eigen::Vector2d middle = frame.middle();
   std::string drawn;
   if (place.water_level) drawn += water_drawn(place, scene, frame, normals);
   std::vector<Eigen::Vector2d> taken;
@@ -151,7 +154,7 @@ std::string elements_drawn(const Scene& scene, const Frame& frame) {
 std::string edges_drawn(const Scene& scene, const Frame& frame, const std::string& boundary,
                         const char* style) {
   std::string path;
-  for (const OutlineEdge& edge : edges_of(scene.mesh(), boundary)) {
+  for (const OutlineSide<2>& edge : sides_of(scene.mesh(), boundary)) {
     const auto& nodes = scene.mesh().nodes;
     path += fmt::format("M{}L{}", point(frame.at(nodes[static_cast<std::size_t>(edge.nodes[0])])),
                         point(frame.at(nodes[static_cast<std::size_t>(edge.nodes[1])])));
@@ -161,7 +164,7 @@ std::string edges_drawn(const Scene& scene, const Frame& frame, const std::strin
 
 std::string weight_drawn(const Scene& scene, const Frame& frame) {
   std::string drawn;
-  const Eigen::Vector2d middle = 0.5 * (scene.body().least + scene.body().largest);
+  const Eigen::Vector2d middle = frame.middle();
   for (const fem::BodyLoad<2>& load : scene.problem().body_loads) {
     const Eigen::Vector2d force = load.density(middle).head<2>();
     if (!(force.norm() > 0.0)) continue;
@@ -176,10 +179,10 @@ std::string names_drawn(const std::vector<PlaceConditions<2>>& places, const Sce
                         const Frame& frame) {
   std::string drawn;
   for (const PlaceConditions<2>& place : places) {
-    const std::vector<OutlineEdge> edges =
-        place.is_boundary ? edges_of(scene.mesh(), place.name) : std::vector<OutlineEdge>{};
+    const std::vector<OutlineSide<2>> edges =
+        place.is_boundary ? sides_of(scene.mesh(), place.name) : std::vector<OutlineSide<2>>{};
     if (edges.empty()) continue;
-    const OutlineEdge& edge = edges[edges.size() / 2];
+    const OutlineSide<2>& edge = edges[edges.size() / 2];
     const Eigen::Vector2d at = frame.at(edge.centre) - 12.0 * flipped(edge.normal);
     const char* const anchor = edge.normal.x() > 0.5 ? "end" : edge.normal.x() < -0.5 ? "start" : "middle";
     drawn += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>{}</text>\n", at.x(), at.y() + 4.0,
@@ -191,7 +194,7 @@ std::string names_drawn(const std::vector<PlaceConditions<2>>& places, const Sce
 }  // namespace
 
 std::string plane_drawing(const Scene& scene, const std::vector<PlaceConditions<2>>& places) {
-  const Frame frame(scene.body());
+  const Frame frame(fem::box_around(scene.mesh()));
   std::string drawn = elements_drawn(scene, frame);
   // An edge without a name, or with a name and no condition, is free: that is where a base is forgotten.
   const std::string free_style = fmt::format("stroke='{}' stroke-width='3' stroke-dasharray='7 5'", kFree);

@@ -64,19 +64,19 @@ struct OuterNode {
 };
 
 std::string faces_drawn(const fem::Mesh<3>& mesh, const std::vector<SceneRegion>& regions,
-                        const std::vector<OuterFace>& faces, const std::set<std::string>& free,
+                        const std::vector<OutlineSide<3>>& faces, const std::set<std::string>& free,
                         const View& view) {
   std::map<int, std::size_t> region_of;
   for (std::size_t r = 0; r < regions.size(); ++r)
     for (const int element : regions[r].elements) region_of.emplace(element, r);
-  std::vector<const OuterFace*> seen;
-  for (const OuterFace& face : faces)
+  std::vector<const OutlineSide<3>*> seen;
+  for (const OutlineSide<3>& face : faces)
     if (view.sees(face.normal)) seen.push_back(&face);
-  std::ranges::stable_sort(seen, [&](const OuterFace* a, const OuterFace* b) {
+  std::ranges::stable_sort(seen, [&](const OutlineSide<3>* a, const OutlineSide<3>* b) {
     return view.depth(a->centre) < view.depth(b->centre);
   });
   std::string drawn;
-  for (const OuterFace* const face : seen) {
+  for (const OutlineSide<3>* const face : seen) {
     std::string corners;
     for (const int node : face->corners)
       corners += (corners.empty() ? "" : " ") + point(view.at(mesh.nodes[static_cast<std::size_t>(node)]));
@@ -127,13 +127,13 @@ std::string symbols_at(const PlaceConditions<3>& place, const Eigen::Vector2d& a
 }
 
 /// Normals of a place at its nodes, from its own faces where it has faces.
-std::map<int, OuterNode> outer_nodes(const std::vector<OuterFace>& faces, const std::string& name,
+std::map<int, OuterNode> outer_nodes(const std::vector<OutlineSide<3>>& faces, const std::string& name,
                                      const View& view) {
   std::map<int, OuterNode> nodes;
-  for (const OuterFace& face : faces) {
+  for (const OutlineSide<3>& face : faces) {
     if (!name.empty() && std::ranges::find(face.names, name) == face.names.end()) continue;
     for (const int node : face.corners) {
-      nodes[node].normal += face.area * face.normal;
+      nodes[node].normal += face.size * face.normal;
       if (view.sees(face.normal)) nodes[node].is_seen = true;
     }
   }
@@ -141,7 +141,7 @@ std::map<int, OuterNode> outer_nodes(const std::vector<OuterFace>& faces, const 
 }
 
 std::string symbols_of(const PlaceConditions<3>& place, const fem::Mesh<3>& mesh,
-                       const std::vector<OuterFace>& faces, const View& view) {
+                       const std::vector<OutlineSide<3>>& faces, const View& view) {
   const std::map<int, OuterNode> outer = outer_nodes(faces, place.is_boundary ? place.name : "", view);
   std::string drawn;
   std::vector<Eigen::Vector2d> taken;
@@ -160,16 +160,16 @@ std::string symbols_of(const PlaceConditions<3>& place, const fem::Mesh<3>& mesh
 }
 
 /// The name of each boundary in the middle of what is seen of it.
-std::string names_drawn(const std::vector<PlaceConditions<3>>& places, const std::vector<OuterFace>& faces,
-                        const View& view) {
+std::string names_drawn(const std::vector<PlaceConditions<3>>& places,
+                        const std::vector<OutlineSide<3>>& faces, const View& view) {
   std::string drawn;
   for (const PlaceConditions<3>& place : places) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double area = 0.0;
-    for (const OuterFace& face : faces) {
+    for (const OutlineSide<3>& face : faces) {
       if (!view.sees(face.normal) || std::ranges::find(face.names, place.name) == face.names.end()) continue;
-      sum += face.area * face.centre;
-      area += face.area;
+      sum += face.size * face.centre;
+      area += face.size;
     }
     if (area == 0.0) continue;
     const Eigen::Vector2d at = view.at(sum / area);
@@ -195,7 +195,7 @@ std::string axes_drawn(const View& view) {
 }
 
 std::string figure(const fem::Mesh<3>& mesh, const std::vector<SceneRegion>& regions,
-                   const std::vector<PlaceConditions<3>>& places, const std::vector<OuterFace>& faces,
+                   const std::vector<PlaceConditions<3>>& places, const std::vector<OutlineSide<3>>& faces,
                    const Eigen::Vector3d& towards, const char* caption) {
   const View view(towards, mesh);
   std::set<std::string> free;
@@ -218,7 +218,7 @@ std::string figure(const fem::Mesh<3>& mesh, const std::vector<SceneRegion>& reg
 
 std::string space_drawing(const fem::Mesh<3>& mesh, const std::vector<SceneRegion>& regions,
                           const std::vector<PlaceConditions<3>>& places) {
-  const std::vector<OuterFace> faces = outer_faces(mesh);
+  const std::vector<OutlineSide<3>> faces = outline_of(mesh);
   const Eigen::Vector3d before(0.55, -0.85, 0.5);
   return figure(mesh, regions, places, faces, before, "From the front, right and above") +
          figure(mesh, regions, places, faces, -before, "From behind, left and below");

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/picture/conditions.hpp"
-#include "app/picture/outer_faces.hpp"
+#include "app/remarks/outline.hpp"
 #include "app/remarks/scene.hpp"
 
 namespace polargrain::app {

@@ -7,8 +7,6 @@
 namespace polargrain::app {
 
 void loads_at_start(const Scene& scene, Remarks& remarks);
-/// The same of bodies in space, whose outline consists of faces.
-void loads_at_start_in_space(const Scene& scene, Remarks& remarks);
 void weight_in_boxes(const Scene& scene, Remarks& remarks);
 void weight_at_once(const Scene& scene, Remarks& remarks);
 void loads_twice(const Scene& scene, Remarks& remarks);
@@ -19,16 +17,17 @@ void tension(const Scene& scene, Remarks& remarks);
 void ground_stress(const Scene& scene, Remarks& remarks);
 void weight(const Scene& scene, Remarks& remarks);
 void free_sides(const Scene& scene, Remarks& remarks);
-void free_sides_in_space(const Scene& scene, Remarks& remarks);
 void structures(const Scene& scene, Remarks& remarks);
 void weight_of_parts(const Scene& scene, Remarks& remarks);
 void loads_of_stages(const Scene& scene, Remarks& remarks);
+void sums_of_stages(const Scene& scene, Remarks& remarks);
 void densities(const Scene& scene, Remarks& remarks);
 void motions(const Scene& scene, Remarks& remarks);
 void movement(const Scene& scene, Remarks& remarks);
 void pulled_apart(const Scene& scene, Remarks& remarks);
 void times_of_loads(const Scene& scene, Remarks& remarks);
 void idle_steps(const Scene& scene, Remarks& remarks);
+void growing_steps(const Scene& scene, Remarks& remarks);
 void missed_turns(const Scene& scene, Remarks& remarks);
 void steps_of_strain(const Scene& scene, Remarks& remarks);
 void internal_length(const Scene& scene, Remarks& remarks);

@@ -2,6 +2,7 @@
 #include "app/remarks/lengths.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace polargrain::app {
 
@@ -14,6 +15,21 @@ double usual_element(const Scene& scene, const SceneRegion& region) {
   std::ranges::nth_element(sizes, middle);
   return *middle;
 }
+
+template <int dim>
+double height_of(const fem::Mesh<dim>& mesh, const std::vector<int>& elements) {
+  double least = HUGE_VAL;
+  double largest = -HUGE_VAL;
+  for (const int element : elements)
+    for (const int node : mesh.elements[static_cast<std::size_t>(element)].nodes) {
+      least = std::min(least, mesh.nodes[static_cast<std::size_t>(node)](dim - 1));
+      largest = std::max(largest, mesh.nodes[static_cast<std::size_t>(node)](dim - 1));
+    }
+  return std::max(0.0, largest - least);
+}
+
+template double height_of<2>(const fem::Mesh<2>&, const std::vector<int>&);
+template double height_of<3>(const fem::Mesh<3>&, const std::vector<int>&);
 
 bool is_strong(const Scene& scene, const SceneRegion& region) {
   return region.cell != nullptr || scene.find({"materials", region.material, "friction_angle"}) != nullptr;

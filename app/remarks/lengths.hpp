@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <vector>
+
 #include "app/remarks/scene.hpp"
 
 namespace polargrain::app {
@@ -19,6 +21,10 @@ inline constexpr double kMostLengthOverGrain = 50.0;
 /// Square root of the area of an element of a region, m: the median, so that a mesh which is fine where most of its elements are
 /// counts as fine.
 double usual_element(const Scene& scene, const SceneRegion& region);
+
+/// From the lowest to the highest node of elements, along the last axis, m.
+template <int dim>
+double height_of(const fem::Mesh<dim>& mesh, const std::vector<int>& elements);
 
 /// Whether a material has a strength, so that bands may form in it.
 bool is_strong(const Scene& scene, const SceneRegion& region);

@@ -25,13 +25,16 @@ struct Kind {
 };
 
 /// The kinds that look at loads and stresses at time zero, one by one.
-constexpr Kind kAtTimeZero[] = {
-    {loads_at_start, Bodies::plane, true}, {loads_at_start_in_space, Bodies::space, true},
-    {weight_in_boxes, Bodies::plane},      {load_on_held, Bodies::both},
-    {plain_loads, Bodies::both},           {tension, Bodies::plane},
-    {ground_stress, Bodies::both},         {weight, Bodies::both},
-    {free_sides, Bodies::plane},           {free_sides_in_space, Bodies::space},
-    {stiffness_of_laws, Bodies::both},     {loads_twice, Bodies::both}};
+constexpr Kind kAtTimeZero[] = {{loads_at_start, Bodies::both, true},
+                                {weight_in_boxes, Bodies::both},
+                                {load_on_held, Bodies::both},
+                                {plain_loads, Bodies::both},
+                                {tension, Bodies::both},
+                                {ground_stress, Bodies::both},
+                                {weight, Bodies::both},
+                                {free_sides, Bodies::both},
+                                {stiffness_of_laws, Bodies::both},
+                                {loads_twice, Bodies::both}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
 constexpr Kind kBalance[] = {{balance_at_start, Bodies::both, true}};
@@ -39,6 +42,7 @@ constexpr Kind kBalance[] = {{balance_at_start, Bodies::both, true}};
 constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {times_of_loads, Bodies::both},
                                   {idle_steps, Bodies::both},
+                                  {growing_steps, Bodies::both},
                                   {missed_turns, Bodies::both},
                                   {open_seams, Bodies::both},
                                   {steps_of_strain, Bodies::both},
@@ -50,27 +54,28 @@ constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
                                   {unread_properties, Bodies::both},
                                   {contact_numbers, Bodies::both},
                                   {neighbours, Bodies::both},
-                                  {tolerances, Bodies::plane},
+                                  {tolerances, Bodies::both},
                                   {softening_cauchy, Bodies::both},
                                   {strength_of_laws, Bodies::both},
                                   {monitors, Bodies::both},
                                   {measures, Bodies::both},
-                                  {formulas, Bodies::plane},
+                                  {formulas, Bodies::both},
                                   {output, Bodies::both},
                                   {cost, Bodies::both},
                                   {moduli, Bodies::both},
                                   {node_forces, Bodies::both},
-                                  {weight_at_once, Bodies::plane, true},
-                                  {pulled_apart, Bodies::plane},
-                                  {carried_along, Bodies::plane},
-                                  {held_sides, Bodies::plane},
+                                  {weight_at_once, Bodies::both, true},
+                                  {pulled_apart, Bodies::both},
+                                  {carried_along, Bodies::both},
+                                  {held_sides, Bodies::both},
                                   {narrow_plates, Bodies::plane},
-                                  {shape_of_elements, Bodies::plane},
+                                  {shape_of_elements, Bodies::both},
                                   {places_of_monitors, Bodies::both},
                                   {ends_of_profiles, Bodies::both},
                                   {structures, Bodies::plane},
                                   {weight_of_parts, Bodies::both},
                                   {loads_of_stages, Bodies::both},
+                                  {sums_of_stages, Bodies::both},
                                   {densities, Bodies::both},
                                   {motions, Bodies::both},
                                   {pore_water, Bodies::both},
@@ -91,7 +96,8 @@ void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) 
 /// Kinds that later stages may have too, by their supports and loads.
 constexpr Kind kInEachStage[] = {{load_on_held, Bodies::both}, {plain_loads, Bodies::both},
                                  {weight, Bodies::both},       {movement, Bodies::both},
-                                 {node_forces, Bodies::both},  {loads_twice, Bodies::both}};
+                                 {node_forces, Bodies::both},  {loads_twice, Bodies::both},
+                                 {tension, Bodies::both}};
 
 /// An item that stays through several stages is told once.
 void look_at_later_stages(const Scene& scene, Remarks& remarks) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "app/remarks/lengths.hpp"
+
 namespace polargrain::app {
 namespace {
 
@@ -26,9 +28,13 @@ double stress_scale(const Scene& scene) {
       scale = std::max(scale, load.pressure.largest_magnitude());
       for (const fem::TimeTable& along : load.traction) scale = std::max(scale, along.largest_magnitude());
     }
-    for (const fem::BodyLoad<dim>& load : problem.body_loads)
-      scale = std::max(scale, load.density(problem.mesh.nodes.front()).norm() *
-                                  load.factor.largest_magnitude() * (scene.body().top - scene.body().bottom));
+    for (const fem::BodyLoad<dim>& load : problem.body_loads) {
+      const double height = load.region.empty()
+                                ? scene.body().height()
+                                : height_of(problem.mesh, problem.mesh.regions.at(load.region));
+      scale = std::max(
+          scale, load.density(problem.mesh.nodes.front()).norm() * load.factor.largest_magnitude() * height);
+    }
     for (const SceneRegion& region : scene.regions())
       if (region.cell == nullptr && !region.elements.empty())
         scale = std::max(scale, stress_at_start(scene, region, problem));

@@ -188,6 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
+        Careless{"BankOnGroundOfOneStress", kBank, "K0: 0.5, region: rest}]", "K0: 0.5}]"},
         Careless{"AFooting", kFooting, "", ""},
         Careless{"ALineAcrossAHole", kBank, kReadAlong,
                  kReadAlong + "profiles: {slope: {from: [2 m, 9 m], to: [12 m, 12 m], values: [u2]}}\n"},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/careless_features.hpp"
 
@@ -70,6 +71,33 @@ TEST(RealTime, NeedsExplicitSteps) {
   }
 }
 
+/// A column between a base that moves and a top that stands has no base to damp it against.
+TEST(RealTime, DampsAgainstOneBase) {
+  const Scratch scratch("careless_base");
+  write(scratch.path() / "quake.csv", "time,acceleration\n0,0\n1,1\n2,0\n");
+  const std::string shaken =
+      replaced(replaced(kColumn, "{on: bottom, fix: [u1, u2]}",
+                        "{on: bottom, fix: [u2], accelerate: {u1: quake.csv}}"),
+               "{on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}", "{on: top, fix: [u1]}");
+  write(scratch.path() / "case.yaml", shaken);
+  try {
+    (void)coupler::read_case(scratch.path() / "case.yaml");
+    ADD_FAILURE() << "a base with two motions";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.faults().size(), 1U);
+    EXPECT_EQ(error.faults().front().line, 12);
+    EXPECT_EQ(
+        error.faults().front().message,
+        "steps: mass_damping: it damps the motion relative to the base, and along u1 'bottom' and 'top' move "
+        "differently; accelerate both alike, or leave mass_damping out");
+  }
+  write(scratch.path() / "case.yaml", replaced(shaken, ", mass_damping: 3", ""));
+  EXPECT_NO_THROW((void)coupler::read_case(scratch.path() / "case.yaml"));
+  write(scratch.path() / "case.yaml",
+        replaced(shaken, "{on: top, fix: [u1]}", "{on: top, accelerate: {u1: quake.csv}}"));
+  EXPECT_NO_THROW((void)coupler::read_case(scratch.path() / "case.yaml"));
+}
+
 TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
   const Scratch scratch("careless_quiet");
   write(scratch.path() / "case.yaml",
@@ -104,6 +132,19 @@ TEST(Motions, TooFastForTheElementsAreTold) {
   EXPECT_TRUE(is_told_of_features(
       remarks, "has 50 Hz in the mean, whose shear wave is 1.75 m long in region 'all': 2.5 elements",
       Rank::doubtful))
+      << app::text_of(remarks, true);
+}
+
+/// Swings of 1 m/s2 and 1 Hz reach 0.32 m/s; an offset of 0.5 m/s2 carries the base to 1 m/s.
+TEST(Motions, WithAnOffsetAreTold) {
+  const Scratch scratch("careless_offset");
+  std::string table = "time,acceleration\n";
+  for (int row = 0; row <= 200; ++row)
+    table += fmt::format("{},{}\n", 0.01 * row, 0.5 + std::sin(2.0 * std::numbers::pi * 0.01 * row));
+  write(scratch.path() / "quake.csv", table);
+  const app::Remarks remarks = remarks_on_motion_of(scratch);
+  EXPECT_TRUE(
+      is_told_of_features(remarks, "ends with 1e+03 mm/s and its swings reach 318 mm/s", Rank::doubtful))
       << app::text_of(remarks, true);
 }
 

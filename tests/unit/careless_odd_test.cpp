@@ -55,6 +55,18 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"MeshBelowTheSurface",
                  replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "[[0, 820 kPa], [1, 870 kPa]]"),
                  "surface: 5 m", "surface: 50 m"},
+        Careless{
+            "LoadsOfStagesThatGrow", kGround, "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, pressure: 40 kPa}]}, "
+            "{name: b, until: 2, count: 4, boundary: [{on: top, pressure: 20 kPa}]}]}"},
+        Careless{
+            "ALoadThatTakesAnothersPlace", kGround, "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, name: q, pressure: 20 "
+            "kPa}]}, {name: b, until: 2, count: 4, end: q, boundary: [{on: top, pressure: 50 kPa}]}]}"},
+        Careless{
+            "HeldBehindItsLoad", kGround, "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4}, {name: b, until: 2, count: 4, boundary: "
+            "[{on: top, fix: [u2]}]}]}"},
         Careless{"ThirdsInAFormula", kGround, "-base_force / 10 m", "-0.333 * base_force / 10 m"},
         Careless{"PressureInTwoParts", kGrains, "{on: [left, right], pressure: 100 kPa}",
                  "{on: [left, right], pressure: 60 kPa}\n  - {on: [left, right], pressure: 40 kPa}"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Remarks on cases whose parts come and go: time zero is judged by the parts that are there.
 #include "app/remarks/start_of_step_zero.hpp"
+#include "app/remarks/stress_scale.hpp"
 #include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_scenes.hpp"
 
@@ -35,7 +36,8 @@ const std::string kStart =
     "    - {name: start, count: 1}\n"
     "    - {name: bank, place: bank, count: 2}";
 
-std::optional<app::StartOfStepZero> start_of(const std::string& text) {
+/// Calls look(scene) with the scene of a case.
+auto look_at_case(const std::string& text, const auto& look) {
   const Scratch scratch("careless_stages");
   const std::string source = POLARGRAIN_SOURCE_DIRECTORY;
   write(scratch.path() / "case.yaml", text);
@@ -44,7 +46,11 @@ std::optional<app::StartOfStepZero> start_of(const std::string& text) {
   const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
   const coupler::Entry document =
       coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
-  return app::start_of_step_zero(app::Scene(the_case, document, {}));
+  return look(app::Scene(the_case, document, {}));
+}
+
+std::optional<app::StartOfStepZero> start_of(const std::string& text) {
+  return look_at_case(text, [](const app::Scene& scene) { return app::start_of_step_zero(scene); });
 }
 
 std::string staged(const std::string& good, const std::string& bad) {
@@ -100,6 +106,14 @@ TEST(StagesAtTimeZero, MaterialsOfLaterPartsAreLookedAt) {
     return remark.rank == app::Rank::wrong &&
            remark.at.message.find("material 'fill': E is 2 kPa") != std::string::npos;
   })) << app::text_of(remarks, true);
+}
+
+/// The weight of a part presses by its own height, 2 m; that of all by 12 m.
+TEST(StagesAtTimeZero, WeightPressesByTheHeightOfItsRegion) {
+  const std::string of_all = "body: [{unit_weight: 18 kN/m3}]";
+  EXPECT_NEAR(look_at_case(kStages, app::stress_scale), 18e3 * 12.0, 1e-6);
+  const std::string of_pit = replaced(kStages, of_all, "body: [{unit_weight: 18 kN/m3, region: pit}]");
+  EXPECT_NEAR(look_at_case(of_pit, app::stress_scale), 18e3 * 2.0, 1e-6);
 }
 
 /// `pit` and `rest` are of one material.

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"WeightInBoxesOfOnePressure", kGrains, "steps:", "body: [{unit_weight: 900 kN/m3}]\nsteps:",
                  "all its boxes of grains are packed under 100 kPa"},
         Careless{"OtherWeightThanTheStress", kGround, kWeight, "  - {unit_weight: 28 kN/m3}\n",
-                 "step 0 moves the body by", Rank::doubtful},
+                 "a unit weight of 18 kN/m3, and region 'all' has 28 kN/m3 below body"},
         Careless{"SurchargeThatIsNotThere", kGround, ", surcharge: 10 kPa", "",
                  "'top' carries 10 kPa at time zero, the initial stress behind it 0 kPa"},
         Careless{
@@ -156,7 +156,27 @@ INSTANTIATE_TEST_SUITE_P(
                 kGround,
                 "initial_stress:\n  - {surface: 5 m, unit_weight: 18 kN/m3, K0: 0.5, surcharge: 10 kPa}\n",
                 ""),
-            "[left, right], fix", "left, fix", "the right side of the mesh is free"},
+            "[left, right], fix", "left, fix", "its upper end along 1 is free over the whole height"},
+        Careless{"AHeavierStressThanTheBody", kGround, "surface: 5 m, unit_weight: 18 kN/m3",
+                 "surface: 5 m, unit_weight: 24 kN/m3",
+                 "a unit weight of 24 kN/m3, and region 'all' has 18 kN/m3 below body", Rank::doubtful},
+        Careless{"ALighterStressThanTheBody", kGround, "surface: 5 m, unit_weight: 18 kN/m3",
+                 "surface: 5 m, unit_weight: 8 kN/m3",
+                 "a unit weight of 8 kN/m3, and region 'all' has 18 kN/m3 below body"},
+        Careless{
+            "APullOfAStage", replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "10 kPa"),
+            "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, count: 2}, {name: b, count: 2, boundary: [{on: top, "
+            "pressure: -40 kPa}]}]}",
+            "a pressure of -30 kPa on 'top' pulls"},
+        Careless{"APullInBetween", kGround, "[[0, 10 kPa], [1, 60 kPa]]",
+                 "[[0, 10 kPa], [0.2, -40 kPa], [0.4, 10 kPa], [1, 60 kPa]]",
+                 "a pressure of -40 kPa on 'top' pulls"},
+        Careless{
+            "AWholeInPlaceOfAnIncrease", kGround, "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, pressure: 20 kPa}]}, "
+            "{name: b, until: 2, count: 4, boundary: [{on: top, pressure: 50 kPa}]}]}",
+            "stage 'b' adds 50 kPa on 'top' to the 20 kPa of stage 'a': 70 kPa together", Rank::doubtful},
         Careless{"RatioAtRestInPerCent", kGround, "K0: 0.5", "K0: 50",
                  "the ratios that material 'soil' can carry"},
         Careless{"RatioAtRestOfNothing", kGround, "K0: 0.5", "K0: 0.05",

@@ -84,6 +84,28 @@ monitors: {heave: {on: bottom, reaction: u2}}
 output: {table: [heave]}
 )";
 
+/// A surcharge that the ground has carried always; then the water below sinks.
+const std::string kCarried = R"(title: The water sinks below an old surcharge
+continuum: cauchy
+mesh: {rectangle: {size: [1 m, 4 m], elements: [1, 8]}}
+materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {all: clay}
+water: {permeability: 1e-9 m/s, level: 4 m}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2], water_level: [[0 s, 4 m], [10 d, 3.5 m]]}
+  - {on: top, drained: true, pressure: 10 kPa}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 10 kPa}]
+steps: {duration: 100 d, count: 20, first: 1 h, tolerance: 1e-8}
+monitors: {u: {on: top, displacement: u2}}
+output: {table: [u]}
+)";
+
+/// Free water stands below the surface, and the water in the ground as high.
+const std::string kDryBed =
+    replaced(replaced(kSea, "level: 10 m", "level: 3 m"), "free_water: 10 m}", "free_water: 3 m}");
+
 /// The sea behind a rigid wall.
 const std::string kQuay = replaced(kSea, "boundary:\n  - {on: [left, right], fix: [u1]}",
                                    "interfaces: {quay: {on: left, friction: 20 deg}}\nboundary:\n"
@@ -125,6 +147,10 @@ INSTANTIATE_TEST_SUITE_P(
                  replaced(kSea, ", unit_weight: 10 kN/m3}\n", "}\n"), ", surcharge: 60 kPa", "",
                  "water stands 6 m above the surface and weighs 58.86 kPa, and the surcharge is 0 kPa",
                  Rank::wrong},
+        Careless{"ASurchargeIsNotInTheStress", kCarried, ", surcharge: 10 kPa", "",
+                 "behind the sudden load the pressure overshoots", Rank::doubtful},
+        Careless{"ASurchargeIsLessThanTheLoad", kCarried, "pressure: 10 kPa", "pressure: 20 kPa",
+                 "behind the sudden load the pressure overshoots", Rank::doubtful},
         Careless{"AFluxIntoADrain", kWet, "{on: right, flux: 0 m/s}", "{on: left, flux: 1e-9 m/s}",
                  "the flux into 'left' changes nothing: all of its 9 nodes have a given pressure",
                  Rank::wrong},
@@ -136,12 +162,14 @@ INSTANTIATE_TEST_SUITE_P(
             Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(Water, OddFeatures,
-                         ::testing::Values(Careless{"DugAndDrained", kPit, "", ""},
-                                           Careless{"TheSeaAtAQuay", kQuay, "", ""},
-                                           Careless{"FillOnASheet", kFillOnASheet, "", ""},
-                                           Careless{"BelowTheSea", kSea, "", ""}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Water, OddFeatures,
+    ::testing::Values(Careless{"DugAndDrained", kPit, "", ""}, Careless{"TheSeaAtAQuay", kQuay, "", ""},
+                      Careless{"FillOnASheet", kFillOnASheet, "", ""},
+                      Careless{"AnOldSurcharge", kCarried, "", ""},
+                      Careless{"WaterBelowABed", replaced(kDryBed, ", surcharge: 60 kPa", ""), "", ""},
+                      Careless{"BelowTheSea", kSea, "", ""}),
+    [](const auto& info) { return info.param.name; });
 
 // The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.
 TEST(Picture, ShowsFreeWater) {

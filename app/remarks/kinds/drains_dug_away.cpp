@@ -36,7 +36,8 @@ std::vector<char> laid_bare(const fem::Problem<dim>& problem, const std::vector<
 }
 
 template <int dim>
-void look_at(const Scene& scene, const fem::Problem<dim>& problem, int stage, Remarks& remarks) {
+void look_at_drains(const Scene& scene, const fem::Problem<dim>& problem, const fem::PoreWater<dim>& water,
+                    int stage, Remarks& remarks) {
   const std::vector<char> before = fem::elements_in_stage(problem, stage - 1);
   const std::vector<char> now = fem::elements_in_stage(problem, stage);
   if (now.empty()) return;
@@ -45,6 +46,9 @@ void look_at(const Scene& scene, const fem::Problem<dim>& problem, int stage, Re
   for (const fem::PrescribedField<dim>& given : problem.prescribed_fields)
     if (given.life.holds(stage))
       for (const int node : problem.mesh.nodes_on(given.on)) closed[static_cast<std::size_t>(node)] = 0;
+  for (const fem::OpenSide& side : water.options().open_sides)
+    if (side.holds(stage))
+      for (const int node : problem.mesh.nodes_on(side.on)) closed[static_cast<std::size_t>(node)] = 0;
   // Drained sides beside it share its ends.
   if (2 * std::ranges::count(closed, 1) <= all) return;
   for (const fem::PrescribedField<dim>& given : problem.prescribed_fields) {
@@ -73,7 +77,7 @@ void drains_dug_away(const Scene& scene, Remarks& remarks) {
         std::ranges::all_of(water->regions(), [](const auto& region) { return region.second.undrained; }))
       return;
     for (int stage = 1; stage < static_cast<int>(problem.stages.size()); ++stage)
-      look_at<dim>(scene, problem, stage, remarks);
+      look_at_drains<dim>(scene, problem, *water, stage, remarks);
   };
   // Not Scene::with_problem: conditions that begin in a later stage matter here.
   scene.the_case().with_problem(look);

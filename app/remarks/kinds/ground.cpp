@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ground: its stress at time zero, its weight, its sides.
+// Ground: its stress at time zero, its weight.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,13 +14,6 @@ namespace {
 
 using coupler::Dimension;
 using coupler::Entry;
-
-/// Vertical weight at full value, N/m^3, downwards positive, of a load; and along 1.
-Eigen::Vector2d weight_of(const Scene& scene, const fem::BodyLoad<2>& load) {
-  const Eigen::Vector3d density = load.density(scene.body().least);
-  const double factor = load.factor.largest_magnitude();
-  return {factor * density.x(), -factor * density.y()};
-}
 
 std::optional<double> number(const Entry& item, const char* key, Dimension dimension) {
   const Entry* const entry = item.find(key);
@@ -64,8 +57,8 @@ void look_at_ratio(const Scene& scene, const Entry& item, Remarks& remarks) {
 }
 
 /// Whether loads on the highest sides stand, at time zero, for ground above the mesh of this weight.
-bool carries_ground_above(const Scene& scene, double weight) {
-  const double lowest = scene.body().top - 1e-6 * (scene.body().top - scene.body().bottom);
+bool carries_ground_above(const Scene& scene, double top, double weight) {
+  const double lowest = top - 1e-6 * scene.body().height();
   const double load_there = scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
     double sum = 0.0;
     for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads)
@@ -80,21 +73,35 @@ bool carries_ground_above(const Scene& scene, double weight) {
   return std::abs(load_there - weight) <= 0.3 * weight;
 }
 
+/// The highest point of the ground that is there at time zero.
+double top_at_start(const Scene& scene) {
+  return scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    double top = scene.body().bottom;
+    for (const SceneRegion& region : scene.regions())
+      for (const int element : region.elements)
+        for (const int node : problem.mesh.elements[static_cast<std::size_t>(element)].nodes)
+          if (!region.comes_later)
+            top = std::max(top, problem.mesh.nodes[static_cast<std::size_t>(node)](dim - 1));
+    return top;
+  });
+}
+
 void look_at_surface(const Scene& scene, const Entry& item, Remarks& remarks) {
   const auto surface = number(item, "surface", Dimension::length);
   if (!surface) return;
-  const double height = scene.body().top - scene.body().bottom;
-  const double over = *surface - scene.body().top;
+  const double height = scene.body().height();
+  const double top = top_at_start(scene);
+  const double over = *surface - top;
   if (std::abs(over) <= 0.02 * height) return;
   const double above = over * number(item, "unit_weight", Dimension::unit_weight).value_or(0.0) +
                        number(item, "surcharge", Dimension::pressure).value_or(0.0);
-  if (over > 0.0 && carries_ground_above(scene, above)) return;
+  if (over > 0.0 && carries_ground_above(scene, top, above)) return;
   if (item.find("region") != nullptr) return;  // a layer of the ground
   remarks.push_back(
       {std::abs(over) > 0.2 * height ? Rank::wrong : Rank::doubtful, 1.0 + std::abs(over) / height,
        item.find("surface")->fault(fmt::format(
            "initial_stress: the surface is at {:.4g} m, and the highest point of the mesh at {:.4g} m: {}",
-           *surface, scene.body().top,
+           *surface, top,
            over > 0.0 ? "the ground above the mesh has no load in its place"
                       : "the ground above the surface is in tension")),
        "give the height of the mesh's surface; for ground above it a surcharge, and a pressure on the surface"});
@@ -149,11 +156,55 @@ void look_at_components(const Entry& item, Remarks& remarks) {
          fmt::format("give s33, for example {:.4g} kPa", 0.5e-3 * (s[0] + s[1]))});
 }
 
+/// Weight of a region at time zero, downwards positive, N/m^3.
+double weight_at_start(const Scene& scene, const std::string& region) {
+  return scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    double weight = 0.0;
+    for (const fem::BodyLoad<dim>& load : problem.body_loads)
+      if (load.region.empty() || load.region == region)
+        weight -= load.factor.at(0.0) * load.density(problem.mesh.nodes.front())(dim - 1);
+    return weight;
+  });
+}
+
+/// The weight that the stress grows by with depth against that of the body: they balance each other.
+void look_at_weights(const Scene& scene, const Entry& list, Remarks& remarks) {
+  constexpr double kSlackOfWeights = 0.05;
+  constexpr double kFarWeights = 0.3;
+  if (scene.find({"water"}) != nullptr) return;  // then one is that below water, perhaps
+  for (const SceneRegion& region : scene.regions()) {
+    const Entry* last = nullptr;  // the one that counts
+    for (const Entry& item : list.items) {
+      const Entry* const of_region = item.find("region");
+      if (of_region == nullptr || of_region->text == region.name) last = &item;
+    }
+    if (last == nullptr || region.comes_later || region.elements.empty()) continue;
+    const double given = number(*last, "unit_weight", Dimension::unit_weight).value_or(0.0);
+    const double weight = weight_at_start(scene, region.name);
+    if (given == 0.0 || weight <= 0.0) continue;
+    const double off = std::abs(given - weight) / std::max(std::abs(given), weight);
+    const double times = weight / given;
+    const bool is_given_twice =
+        times > 1.5 && std::abs(times - std::round(times)) < 1e-9;  // loads_twice says so
+    if (off <= kSlackOfWeights || is_given_twice) continue;
+    remarks.push_back(
+        {off > kFarWeights ? Rank::wrong : Rank::doubtful, 1.0 + off,
+         last->find("unit_weight")
+             ->fault(fmt::format(
+                 "initial_stress: a unit weight of {:.4g} kN/m3, and region '{}' has {:.4g} kN/m3 below body: step 0 takes "
+                 "up the difference",
+                 1e-3 * given, region.name, 1e-3 * weight)),
+         "give both the same weight; a layer has an item of its own: {region: NAME, ...}"});
+    return;
+  }
+}
+
 }  // namespace
 
 void ground_stress(const Scene& scene, Remarks& remarks) {
   const Entry* const list = scene.find({"initial_stress"});
   if (list == nullptr) return;
+  look_at_weights(scene, *list, remarks);
   for (const Entry& item : list->items) {
     look_at_ratio(scene, item, remarks);
     look_at_surface(scene, item, remarks);
@@ -201,51 +252,6 @@ void look_at_weight(const Scene& scene, const fem::Problem<dim>& problem, Remark
 
 void weight(const Scene& scene, Remarks& remarks) {
   scene.with_problem([&](const auto& problem) { look_at_weight(scene, problem, remarks); });
-}
-
-void free_sides(const Scene& scene, Remarks& remarks) {
-  double down = 0.0;
-  for (const fem::BodyLoad<2>& load : scene.problem().body_loads) down += weight_of(scene, load).y();
-  if (down <= 0.0) return;
-  const auto held = carried_nodes(scene.problem());
-  const Body& body = scene.body();
-  // Vertical parts of the outline at the left and right end of the mesh: held, loaded, or free.
-  struct Side {
-    double free = 0.0;
-    double all = 0.0;
-  } sides[2];
-  std::vector<std::string> names{""};
-  for (const auto& [name, edges] : scene.mesh().boundaries) names.push_back(name);
-  for (const std::string& name : names) {
-    const bool loaded = std::ranges::any_of(
-        scene.problem().boundary_loads, [&](const fem::BoundaryLoad<2>& load) { return load.on == name; });
-    const bool tied = std::ranges::any_of(
-        scene.problem().ties, [&](const fem::Tie& tie) { return tie.on == name || tie.to == name; });
-    for (const OutlineEdge& edge : edges_of(scene.mesh(), name)) {
-      if (std::abs(edge.normal.x()) < 0.99) continue;
-      const double slack = 1e-6 * body.size().x();
-      const bool left = edge.centre.x() < body.least.x() + slack;
-      if (!left && edge.centre.x() < body.largest.x() - slack) continue;
-      Side& side = sides[left ? 0 : 1];
-      side.all += edge.length;
-      if (!loaded && !tied && !held_along({edge}, held).all[0]) side.free += edge.length;
-    }
-  }
-  const auto is_free = [&](const Side& side) {
-    return side.all > 0.9 * body.size().y() && side.free > 0.9 * side.all;
-  };
-  const bool wide = body.size().x() > 2.0 * body.size().y();
-  if (!(is_free(sides[0]) != is_free(sides[1]) || (is_free(sides[0]) && wide))) return;
-  const char* const which = is_free(sides[0]) ? is_free(sides[1]) ? "both vertical sides of the mesh are"
-                                                                  : "the left side of the mesh is"
-                                              : "the right side of the mesh is";
-  remarks.push_back(
-      {Rank::wrong, 5.0,
-       scene.place({"boundary"})
-           .fault(fmt::format(
-               "boundary: {} free over the whole height ({:.3g} m) under weight: the ground flows out there",
-               which, body.size().y())),
-       "hold the sides against moving along 1, as rollers: {on: SIDE, fix: [u1]}; or load them"});
 }
 
 }  // namespace polargrain::app

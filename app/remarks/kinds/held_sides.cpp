@@ -7,22 +7,26 @@
 #include <string>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
+#include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
 namespace {
 
-/// Names of the boundaries, a vertical one at each end of the body, that fix u2 along all of it.
-std::vector<std::string> sides_that_hold(const Scene& scene) {
-  const auto held = held_nodes(scene.problem());
-  const double slack = 1e-6 * scene.body().size().x();
+/// Names of the boundaries, one at each end of the body across an axis, that hold all of it up.
+template <int dim>
+std::vector<std::string> sides_that_hold(const fem::Problem<dim>& problem, int axis) {
+  const HeldNodes<dim> held = held_nodes(problem);
+  const fem::BoxAround<dim> box = fem::box_around(problem.mesh);
+  const double slack = 1e-6 * box.sides()(axis);
   std::vector<std::string> found;
-  for (const double end : {scene.body().least.x(), scene.body().largest.x()}) {
-    for (const auto& [name, edges] : scene.mesh().boundaries) {
-      const std::vector<OutlineEdge> along = edges_of(scene.mesh(), name);
-      const bool is_side = !along.empty() && std::ranges::all_of(along, [&](const OutlineEdge& edge) {
-        return std::abs(edge.centre.x() - end) < slack && std::abs(edge.normal.x()) > 0.999;
+  for (const double end : {box.least(axis), box.largest(axis)}) {
+    for (const auto& [name, unused] : problem.mesh.boundaries) {
+      const std::vector<OutlineSide<dim>> along = sides_of(problem.mesh, name);
+      const bool is_side = !along.empty() && std::ranges::all_of(along, [&](const OutlineSide<dim>& side) {
+        return std::abs(side.centre(axis) - end) < slack && std::abs(side.normal(axis)) > 0.999;
       });
-      if (!is_side || !held_along(along, held).all[1]) continue;
+      if (!is_side || !held_along(along, held).all[dim - 1]) continue;
       found.push_back(name);
       break;
     }
@@ -30,26 +34,35 @@ std::vector<std::string> sides_that_hold(const Scene& scene) {
   return found;
 }
 
-}  // namespace
-
-void held_sides(const Scene& scene, Remarks& remarks) {
-  const bool heavy = std::ranges::any_of(scene.problem().body_loads, [&](const fem::BodyLoad<2>& load) {
-    return load.density(scene.body().least).y() < 0.0;
-  });
-  if (!heavy) return;
-  const std::vector<std::string> sides = sides_that_hold(scene);
+template <int dim>
+void look_at_silo(const Scene& scene, const fem::Problem<dim>& problem, int axis, Remarks& remarks) {
+  const std::vector<std::string> sides = sides_that_hold(problem, axis);
   if (sides.size() < 2) return;
-  const double width = scene.body().size().x();
-  const double height = scene.body().size().y();
+  const double width = scene.body().sides[static_cast<std::size_t>(axis)];
+  const double height = scene.body().height();
   const coupler::Entry* const value = scene.boundary_value(sides[0], "fix");
   remarks.push_back(
       {Rank::doubtful, std::max(1.0, height / width),
        (value != nullptr ? *value : scene.place({"boundary"}))
            .fault(fmt::format(
-               "boundary: u2 is fixed along '{}' and '{}': the ground between them hangs on its sides, as in "
+               "boundary: u{} is fixed along '{}' and '{}': the ground between them hangs on its sides, as in "
                "a silo {:.3g} m wide and {:.3g} m high",
-               sides[0], sides[1], width, height)),
-       "ground that goes on beyond the mesh slides there: fix: [u1]"});
+               dim, sides[0], sides[1], width, height)),
+       fmt::format("ground that goes on beyond the mesh slides there: fix: [u{}]", axis + 1)});
+}
+
+template <int dim>
+void look_at_silos(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
+  const bool heavy = std::ranges::any_of(problem.body_loads, [&](const fem::BodyLoad<dim>& load) {
+    return load.density(problem.mesh.nodes.front())(dim - 1) < 0.0;
+  });
+  for (int axis = 0; heavy && axis < dim - 1; ++axis) look_at_silo(scene, problem, axis, remarks);
+}
+
+}  // namespace
+
+void held_sides(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_silos(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app

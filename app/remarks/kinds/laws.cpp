@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include "app/remarks/held_in_space.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "app/remarks/outline.hpp"
 #include "app/remarks/stress_scale.hpp"
 #include "fem/material/cone_matching.hpp"
 
@@ -206,39 +209,69 @@ void plain_loads(const Scene& scene, Remarks& remarks) {
 
 namespace {
 
-/// The tension on a boundary along its normal, of all its loads together, Pa; on a curved one along the mean normal.
-double pull_on(const Scene& scene, const std::string& on, const std::vector<OutlineEdge>& edges,
-               double time) {
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  double length = 0.0;
-  for (const OutlineEdge& edge : edges) {
-    normal += edge.length * edge.normal;
-    length += edge.length;
-  }
-  if (length > 0.0) normal /= length;
-  double pull = 0.0;
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads)
-    if (load.on == on)
-      pull += load.traction[0].at(time) * normal.x() + load.traction[1].at(time) * normal.y() -
-              load.pressure.at(time);
-  return pull;
+/// Times at which the steps end, or an even few where the run finds the time.
+std::vector<double> times_of(const Scene& scene) {
+  if (!scene.end_time()) return {0.0, 0.5, 1.0};
+  std::vector<double> times{0.0};
+  for (const coupler::StepTarget& target : scene.the_case().plan) times.push_back(target.amount);
+  return times;
 }
 
-}  // namespace
+template <int dim>
+using Loads = std::vector<const fem::BoundaryLoad<dim>*>;
 
-void tension(const Scene& scene, Remarks& remarks) {
+/// The loads on each side, whatever the names of their boundaries.
+template <int dim>
+std::map<std::pair<int, int>, Loads<dim>> loads_on_sides(const fem::Problem<dim>& problem) {
+  std::map<std::pair<int, int>, Loads<dim>> loads;
+  for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads)
+    for (const fem::BoundarySide& side : problem.mesh.boundaries.at(load.on))
+      loads[{side.element, side.side}].push_back(&load);
+  return loads;
+}
+
+/// The sides under the same loads.
+template <int dim>
+struct Part {
+  double size = 0.0;                                                     ///< of all
+  typename Cosserat<dim>::Place normals = Cosserat<dim>::Place::Zero();  ///< sum, each times its size
+};
+
+/// The mean tension along the normals of a boundary, Pa.
+template <int dim>
+double pull_on(const std::map<Loads<dim>, Part<dim>>& parts, double time) {
+  double pull = 0.0;
+  double size = 0.0;
+  for (const auto& [loads, part] : parts) {
+    size += part.size;
+    for (const fem::BoundaryLoad<dim>* const load : loads) {
+      pull -= part.size * load->pressure.at(time);
+      for (std::size_t i = 0; i < dim; ++i)
+        pull += load->traction[i].at(time) * part.normals(static_cast<Eigen::Index>(i));
+    }
+  }
+  return size > 0.0 ? pull / size : 0.0;
+}
+
+template <int dim>
+void look_at_pulls(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   constexpr double kRounding = 1e-6;
   std::set<std::string> seen;
-  for (const fem::BoundaryLoad<2>& load : scene.problem().boundary_loads) {
+  const auto loads = loads_on_sides(problem);
+  for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads) {
     if (!seen.insert(load.on).second) continue;
-    const double end = scene.end_time().value_or(1.0);
-    const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), load.on);
+    const std::vector<OutlineSide<dim>> sides = sides_of(problem.mesh, load.on);
+    std::map<Loads<dim>, Part<dim>> parts;
+    for (const OutlineSide<dim>& side : sides) {
+      Part<dim>& part = parts[loads.at({side.element, side.number})];
+      part.size += side.size;
+      part.normals += side.size * side.normal;
+    }
     double pull = 0.0;
-    for (const double time : {0.0, 0.5 * end, end})
-      pull = std::max(pull, pull_on(scene, load.on, edges, time));
+    for (const double time : times_of(scene)) pull = std::max(pull, pull_on<dim>(parts, time));
     if (pull <= kRounding * stress_scale(scene)) continue;
     const bool grains = std::ranges::any_of(
-        edges, [&](const OutlineEdge& edge) { return scene.region_of(edge.element).cell != nullptr; });
+        sides, [&](const OutlineSide<dim>& side) { return scene.region_of(side.element).cell != nullptr; });
     double cohesion = 0.0;
     for (const SceneRegion& region : scene.regions())
       cohesion = std::max(cohesion, largest_value(scene, region, "cohesion", coupler::Dimension::pressure)
@@ -256,8 +289,14 @@ void tension(const Scene& scene, Remarks& remarks) {
                  load.on)),
          pressure != nullptr
              ? "a pressure pushes into the body where it is positive: remove the sign"
-             : "a traction acts along 1 and 2, whatever the boundary looks to: turn its sign, or give a pressure"});
+             : "a traction acts along the axes, whatever the boundary looks to: turn its sign, or give a pressure"});
   }
+}
+
+}  // namespace
+
+void tension(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_pulls(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <utility>
+#include <vector>
 
 #include "app/remarks/given_stress.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -26,105 +26,108 @@ struct Mismatch {
   double along = 0.0;      ///< shear traction that nothing carries, magnitude
   double scale = 0.0;      ///< pressure there
   bool has_cells = false;  ///< whose stress is that of their packing
-  const SceneRegion* region = nullptr;
 };
 
-using Corners = std::pair<int, int>;
-
-Corners corners_of(const std::vector<int>& nodes) {
-  return std::minmax(nodes[0], nodes[1]);
+std::vector<int> sorted(std::vector<int> nodes) {
+  std::ranges::sort(nodes);
+  return nodes;
 }
 
-/// The loads on the edges of a mesh: one edge may lie on several boundaries, each with a load.
-class Edges {
+/// The loads on the sides of a mesh: one side may lie on several boundaries, each with a load.
+template <int dim>
+class LoadedSides {
  public:
-  explicit Edges(const fem::Problem<2>& problem) : problem_(problem) {
-    const fem::Mesh<2>& mesh = problem.mesh;
-    for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
-      for (int side = 0; side < mesh.elements[static_cast<std::size_t>(e)].type->corners; ++side)
-        ++elements_[corners_of(mesh.side_nodes({e, side}))];
+  using Place = typename Cosserat<dim>::Place;
+
+  explicit LoadedSides(const fem::Problem<dim>& problem) : problem_(problem) {
+    const fem::Mesh<dim>& mesh = problem.mesh;
+    for (const OutlineSide<dim>& side : outline_of(mesh)) outer_.insert(sorted(side.nodes));
     for (const auto& [one, other] : fem::joined_nodes(problem)) {
       if (mesh.nodes[static_cast<std::size_t>(one)] != mesh.nodes[static_cast<std::size_t>(other)]) continue;
       in_interface_.insert(one);
       in_interface_.insert(other);
     }
-    for (const fem::BoundaryLoad<2>& load : problem.boundary_loads) {
-      std::set<Corners>& under = under_.emplace_back();
-      for (const fem::BoundarySide& edge : mesh.boundaries.at(load.on))
-        under.insert(corners_of(mesh.side_nodes(edge)));
+    for (const fem::BoundaryLoad<dim>& load : problem.boundary_loads) {
+      std::set<std::vector<int>>& under = under_.emplace_back();
+      for (const fem::BoundarySide& side : mesh.boundaries.at(load.on))
+        under.insert(sorted(mesh.side_nodes(side)));
     }
   }
 
-  /// A line inside the body may have a name too, and along an interface the other side takes the pressure.
-  [[nodiscard]] bool is_outer(const OutlineEdge& edge) const {
-    return elements_.at(corners_of(edge.nodes)) == 1 &&
-           !std::ranges::all_of(edge.nodes, [&](int node) { return in_interface_.contains(node); });
+  /// A line or face inside the body may have a name too, and along an interface the other side takes the pressure.
+  [[nodiscard]] bool is_outer(const OutlineSide<dim>& side) const {
+    return outer_.contains(sorted(side.nodes)) &&
+           !std::ranges::all_of(side.nodes, [&](int node) { return in_interface_.contains(node); });
   }
-  [[nodiscard]] bool is_loaded(const OutlineEdge& edge) const {
-    return std::ranges::any_of(under_,
-                               [&](const auto& under) { return under.contains(corners_of(edge.nodes)); });
+  [[nodiscard]] bool is_loaded(const OutlineSide<dim>& side) const {
+    return std::ranges::any_of(under_, [&](const auto& under) { return under.contains(sorted(side.nodes)); });
   }
   /// At time zero.
-  [[nodiscard]] Eigen::Vector2d traction(const OutlineEdge& edge) const {
-    Eigen::Vector2d t = Eigen::Vector2d::Zero();
+  [[nodiscard]] Place traction(const OutlineSide<dim>& side) const {
+    Place t = Place::Zero();
     for (std::size_t k = 0; k < under_.size(); ++k) {
-      if (!under_[k].contains(corners_of(edge.nodes))) continue;
-      const fem::BoundaryLoad<2>& load = problem_.boundary_loads[k];
-      t += -load.pressure.at(0.0) * edge.normal +
-           Eigen::Vector2d(load.traction[0].at(0.0), load.traction[1].at(0.0));
+      if (!under_[k].contains(sorted(side.nodes))) continue;
+      const fem::BoundaryLoad<dim>& load = problem_.boundary_loads[k];
+      t -= load.pressure.at(0.0) * side.normal;
+      for (std::size_t i = 0; i < dim; ++i) t(static_cast<Eigen::Index>(i)) += load.traction[i].at(0.0);
     }
     return t;
   }
 
  private:
-  const fem::Problem<2>& problem_;
-  std::map<Corners, int> elements_;
+  const fem::Problem<dim>& problem_;
+  std::set<std::vector<int>> outer_;
   std::set<int> in_interface_;  ///< nodes that have another one at their place, joined by an interface
-  std::vector<std::set<Corners>> under_;  ///< each load
+  std::vector<std::set<std::vector<int>>> under_;  ///< each load
 };
 
 /// Loads may come on to the nodes of a boundary one by one, or it is tied: nothing is known of its traction.
-bool is_special(const fem::Problem<2>& problem, const std::string& boundary,
-                const std::vector<OutlineEdge>& edges) {
+template <int dim>
+bool is_special(const fem::Problem<dim>& problem, const std::string& boundary,
+                const std::vector<OutlineSide<dim>>& sides) {
   for (const fem::Tie& tie : problem.ties)
     if (tie.on == boundary || tie.to == boundary) return true;
   for (const fem::NodeLoad& load : problem.node_loads) {
     const std::vector<int> nodes = problem.mesh.nodes_on(load.on);
-    for (const OutlineEdge& edge : edges)
-      for (const int node : edge.nodes)
+    for (const OutlineSide<dim>& side : sides)
+      for (const int node : side.nodes)
         if (std::ranges::binary_search(nodes, node)) return true;
   }
   return false;
 }
 
-/// Over the free edges; nothing without a free edge or a known stress.
-std::optional<Mismatch> mismatch_of(const Scene& scene, const Edges& all,
-                                    const std::vector<OutlineEdge>& edges,
-                                    const std::vector<std::array<bool, 2>>& held) {
+/// Over the free sides; nothing without a free side or a known stress.
+template <int dim>
+std::optional<Mismatch> mismatch_of(const Scene& scene, const LoadedSides<dim>& all,
+                                    const std::vector<OutlineSide<dim>>& sides, const HeldNodes<dim>& held) {
+  using Place = typename Cosserat<dim>::Place;
   Mismatch sum;
-  double length = 0.0;
-  for (const OutlineEdge& edge : edges) {
-    const Held here = held_along({edge}, held);
-    const SceneRegion& region = scene.region_of(edge.element);
-    const std::optional<Vector7> stress = scene.initial_stress<2>(region, edge.centre);
-    if (!stress || (here.all[0] && here.all[1])) continue;
-    const Eigen::Vector2d& n = edge.normal;
-    const Vector7& s = *stress;
-    const Eigen::Vector2d inside(s(k11) * n.x() + s(k21) * n.y(), s(k12) * n.x() + s(k22) * n.y());
-    Eigen::Vector2d out = all.traction(edge) - inside;
-    for (std::size_t i = 0; i < 2; ++i)
-      if (here.all[i]) out(static_cast<Eigen::Index>(i)) = 0.0;
+  double size = 0.0;
+  for (const OutlineSide<dim>& side : sides) {
+    const auto is_along = held_along<dim>({side}, held).all;
+    const SceneRegion& region = scene.region_of(side.element);
+    const auto stress = scene.initial_stress<dim>(region, side.centre);
+    if (!stress || std::ranges::all_of(is_along, [](bool there) { return there; })) continue;
+    const Place& n = side.normal;
+    Place inside = Place::Zero();
+    double mean = 0.0;
+    for (int j = 0; j < dim; ++j) {
+      for (int i = 0; i < dim; ++i) inside(j) += n(i) * (*stress)(Cosserat<dim>::stress_place(i, j));
+      mean -= (*stress)(Cosserat<dim>::stress_place(j, j)) / dim;
+    }
+    Place out = all.traction(side) - inside;
+    for (int i = 0; i < dim; ++i)
+      if (is_along[static_cast<std::size_t>(i)]) out(i) = 0.0;
     const double pushed = -inside.dot(n);
-    sum.behind += edge.length * pushed;
-    sum.carried += edge.length * (pushed - out.dot(n));
-    sum.along += edge.length * std::abs(out.x() * n.y() - out.y() * n.x());
-    sum.scale += edge.length * std::max(-0.5 * (s(k11) + s(k22)), 0.0);
+    sum.behind += side.size * pushed;
+    sum.carried += side.size * (pushed - out.dot(n));
+    sum.along += side.size * (out - out.dot(n) * n).norm();
+    sum.scale += side.size * std::max(mean, 0.0);
     sum.has_cells = sum.has_cells || (region.cell != nullptr && !has_given_stress(scene, region.name));
-    sum.region = &region;
-    length += edge.length;
+    size += side.size;
   }
-  if (length == 0.0) return {};
-  for (double* const value : {&sum.carried, &sum.behind, &sum.along, &sum.scale}) *value /= length;
+  if (size == 0.0) return {};
+  for (double* const value : {&sum.carried, &sum.behind, &sum.along, &sum.scale}) *value /= size;
   return sum;
 }
 
@@ -153,12 +156,14 @@ std::string remedy_of(const Mismatch& m, const std::string& boundary, bool loade
           : "");
 }
 
-void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
-             const std::vector<std::array<bool, 2>>& held, Remarks& remarks) {
-  std::vector<OutlineEdge> edges = edges_of(scene.mesh(), boundary);
-  std::erase_if(edges, [&](const OutlineEdge& edge) { return !all.is_outer(edge); });
-  if (edges.empty() || is_special(scene.problem(), boundary, edges)) return;
-  const std::optional<Mismatch> m = mismatch_of(scene, all, edges, held);
+template <int dim>
+void look_at_boundary(const Scene& scene, const std::string& boundary, const LoadedSides<dim>& all,
+                      const HeldNodes<dim>& held, Remarks& remarks) {
+  const fem::Problem<dim>& problem = scene.problem_of<dim>();
+  std::vector<OutlineSide<dim>> sides = sides_of(problem.mesh, boundary);
+  std::erase_if(sides, [&](const OutlineSide<dim>& side) { return !all.is_outer(side); });
+  if (sides.empty() || is_special(problem, boundary, sides)) return;
+  const std::optional<Mismatch> m = mismatch_of(scene, all, sides, held);
   if (!m) return;
   const double scale = std::max({m->scale, std::abs(m->carried), std::abs(m->behind)});
   if (scale <= 0.0) return;
@@ -168,7 +173,7 @@ void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
   for (const char* const key : {"pressure", "traction"})
     if (value == nullptr) value = scene.boundary_value(boundary, key);
   const bool loaded =
-      std::ranges::any_of(edges, [&](const OutlineEdge& edge) { return all.is_loaded(edge); });
+      std::ranges::any_of(sides, [&](const OutlineSide<dim>& side) { return all.is_loaded(side); });
   const std::string name = boundary.empty() ? "a part of the outline that has no name" : "'" + boundary + "'";
   const std::string who = m->has_cells ? "its grains" : "the initial stress behind it";
   const coupler::Entry& place = value != nullptr ? *value : scene.place({"boundary"});
@@ -184,16 +189,19 @@ void look_at(const Scene& scene, const std::string& boundary, const Edges& all,
       {off > kFar ? Rank::wrong : Rank::doubtful, std::max(1.0, ratio),
        place.fault(
            fmt::format("{}: the first step, 0, has to take up {:.0f} % of that pressure", seen, 100.0 * off)),
-       remedy_of(*m, boundary, loaded, !scene.problem().body_loads.empty())});
+       remedy_of(*m, boundary, loaded, !problem.body_loads.empty())});
 }
 
 }  // namespace
 
 void loads_at_start(const Scene& scene, Remarks& remarks) {
-  const auto held = carried_nodes(scene.problem());
-  const Edges all(scene.problem());
-  for (const auto& [name, edges] : scene.mesh().boundaries) look_at(scene, name, all, held, remarks);
-  look_at(scene, "", all, held, remarks);
+  scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    const HeldNodes<dim> held = carried_nodes(problem);
+    const LoadedSides<dim> all(problem);
+    for (const auto& [name, sides] : problem.mesh.boundaries)
+      look_at_boundary(scene, name, all, held, remarks);
+    look_at_boundary(scene, "", all, held, remarks);
+  });
 }
 
 }  // namespace polargrain::app

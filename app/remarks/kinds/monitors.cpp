@@ -10,7 +10,8 @@
 namespace polargrain::app {
 namespace {
 
-/// Nodes at which a degree of freedom is prescribed, and those that move all the same: the value is not zero, or the boundary quiet.
+/// Nodes at which a degree of freedom is prescribed, and those that move all the same: the value is not zero, it is prescribed in
+/// some stages alone, or the boundary is quiet.
 struct Given {
   std::set<int> held;
   std::set<int> moved;
@@ -23,7 +24,7 @@ Given given(const fem::Problem<dim>& problem, fem::Dof dof) {
     if (item.dof != dof) continue;
     for (const int node : problem.mesh.nodes_on(item.on)) {
       nodes.held.insert(node);
-      if (item.value.largest_magnitude() > 0.0) nodes.moved.insert(node);
+      if (item.value.largest_magnitude() > 0.0 || !item.life.is_whole()) nodes.moved.insert(node);
     }
   }
   // In real time they are let go once the start is balanced.

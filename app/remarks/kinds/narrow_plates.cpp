@@ -10,6 +10,7 @@
 
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "app/remarks/outline.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -20,26 +21,24 @@ constexpr double kLeastElements = 3.0;
 constexpr double kErrorOfOne = 0.17;  ///< of the load; of n elements an nth of it
 
 /// The edges of the outline beside those of a plate.
-std::vector<OutlineEdge> edges_beside(const Scene& scene, const std::vector<OutlineEdge>& plate) {
-  const auto is_of_plate = [&](const OutlineEdge& edge) {
-    return std::ranges::any_of(plate, [&](const OutlineEdge& own) {
-      return own.element == edge.element && (own.centre - edge.centre).norm() < 1e-6 * edge.length;
+std::vector<OutlineSide<2>> edges_beside(const Scene& scene, const std::vector<OutlineSide<2>>& plate) {
+  const auto is_of_plate = [&](const OutlineSide<2>& edge) {
+    return std::ranges::any_of(plate, [&](const OutlineSide<2>& own) {
+      return own.element == edge.element && (own.centre - edge.centre).norm() < 1e-6 * edge.size;
     });
   };
-  std::vector<OutlineEdge> beside = edges_of(scene.mesh(), "");
-  for (const auto& [name, sides] : scene.mesh().boundaries)
-    for (OutlineEdge& edge : edges_of(scene.mesh(), name)) beside.push_back(std::move(edge));
+  std::vector<OutlineSide<2>> beside = outline_of(scene.mesh());
   std::erase_if(beside, is_of_plate);
   return beside;
 }
 
 /// Ends of a plate where the same side of the body goes on, and is free to move along its normal.
-std::size_t ends_within_side(const Scene& scene, const std::vector<OutlineEdge>& plate, int axis) {
+std::size_t ends_within_side(const Scene& scene, const std::vector<OutlineSide<2>>& plate, int axis) {
   std::set<int> own;
-  for (const OutlineEdge& edge : plate) own.insert(edge.nodes.begin(), edge.nodes.end());
+  for (const OutlineSide<2>& edge : plate) own.insert(edge.nodes.begin(), edge.nodes.end());
   const auto held = held_nodes(scene.problem());
   std::set<int> ends;
-  for (const OutlineEdge& edge : edges_beside(scene, plate)) {
+  for (const OutlineSide<2>& edge : edges_beside(scene, plate)) {
     if (edge.normal.dot(plate.front().normal) < 1.0 - 1e-6) continue;
     const bool is_free = std::ranges::any_of(edge.nodes, [&](int node) {
       return !held[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];
@@ -51,8 +50,8 @@ std::size_t ends_within_side(const Scene& scene, const std::vector<OutlineEdge>&
 }
 
 /// Whether it is straight, across an axis, and all of it lies on ground with strength.
-bool is_plate(const Scene& scene, const std::vector<OutlineEdge>& edges, int axis) {
-  return !edges.empty() && std::ranges::all_of(edges, [&](const OutlineEdge& edge) {
+bool is_plate(const Scene& scene, const std::vector<OutlineSide<2>>& edges, int axis) {
+  return !edges.empty() && std::ranges::all_of(edges, [&](const OutlineSide<2>& edge) {
     return std::abs(edge.normal(axis)) > 1.0 - 1e-6 && edge.normal(axis) * edges.front().normal(axis) > 0.0 &&
            is_strong(scene, scene.region_of(edge.element));
   });
@@ -67,7 +66,7 @@ void narrow_plates(const Scene& scene, Remarks& remarks) {
         !scene.mesh().boundaries.contains(item.on) || told.contains(item.on))
       continue;
     const int axis = fem::axis_of(item.dof);
-    const std::vector<OutlineEdge> edges = edges_of(scene.mesh(), item.on);
+    const std::vector<OutlineSide<2>> edges = sides_of(scene.mesh(), item.on);
     if (!is_plate(scene, edges, axis)) continue;
     const std::size_t ends = ends_within_side(scene, edges, axis);
     if (ends == 0) continue;

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "app/remarks/held_in_space.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 #include "fem/mesh/box_around.hpp"
 
 namespace polargrain::app {
@@ -21,13 +20,6 @@ std::string displacement_name(int axis) {
 
 bool is_along(fem::Dof dof, int axis) {
   return !fem::is_rotation(dof) && fem::axis_of(dof) == axis;
-}
-
-std::vector<std::array<bool, 2>> held_in(const fem::Problem<2>& problem) {
-  return held_nodes(problem);
-}
-std::vector<std::array<bool, 3>> held_in(const fem::Problem<3>& problem) {
-  return held_nodes_in_space(problem);
 }
 
 /// Where a flat boundary lies across an axis: at the lower or the upper end of the body, or not at an end at all.
@@ -139,7 +131,7 @@ class Places {
       return there != End::none && there != end;
     };
     if (reads(Monitor::Kind::displacement, axis, is_opposite)) return;
-    const auto nodes = held_in(problem_);
+    const auto nodes = held_nodes(problem_);
     const auto is_held = [&](const fem::BoundarySide& side) {
       return std::ranges::all_of(problem_.mesh.side_nodes(side), [&](int node) {
         return nodes[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/remarks/kinds.hpp"
+#include "fem/solver/loads.hpp"
 #include "fem/water/free_water.hpp"
 #include "fem/water/water_across.hpp"
 
@@ -65,7 +66,7 @@ class Look {
       : scene_(scene), problem_(problem), water_(water), remarks_(remarks) {}
 
   void at_drains() {
-    if (!problem_.prescribed_fields.empty() || !flows()) return;
+    if (!drained_places().empty() || !flows()) return;
     const bool fed = !water_.options().fluxes.empty();
     add(fed ? Rank::wrong : Rank::doubtful, 10.0, {"boundary"},
         fmt::format("boundary: all boundaries are closed to water{}",
@@ -202,8 +203,8 @@ class Look {
     double largest_h = 0.0;  // that it belongs to, m
     double whole = 0.0;      // of consolidation, s
     std::string where;
-    for (const auto& given : problem_.prescribed_fields) {
-      const auto boundary = problem_.mesh.boundaries.find(given.on);
+    for (const std::string& place : drained_places()) {
+      const auto boundary = problem_.mesh.boundaries.find(place);
       if (boundary == problem_.mesh.boundaries.end()) continue;
       for (const fem::BoundarySide& side : boundary->second) {
         const auto diffusivity = diffusivity_of(side.element);
@@ -213,7 +214,7 @@ class Look {
         if (height * height / (6.0 * *diffusivity) <= least) continue;
         least = height * height / (6.0 * *diffusivity);
         largest_h = height;
-        where = given.on;
+        where = place;
       }
     }
     if (where.empty()) return;
@@ -248,6 +249,14 @@ class Look {
   [[nodiscard]] bool flows() const {
     return std::ranges::any_of(water_.regions(), [](const auto& region) { return !region.second.undrained; });
   }
+  /// Boundaries and node sets where water may leave.
+  [[nodiscard]] std::vector<std::string> drained_places() const {
+    std::vector<std::string> places;
+    for (const auto& given : problem_.prescribed_fields) places.push_back(given.on);
+    for (const fem::OpenSide& side : water_.options().open_sides)
+      if (side.holds(scene_.stage())) places.push_back(side.on);
+    return places;
+  }
   void look_at_undrained(const coupler::Entry& item, const std::string& key, const coupler::Entry& value,
                          const std::set<int>& dry) {
     const coupler::Entry* const on = item.find("on");
@@ -271,13 +280,48 @@ class Look {
                key)});
     }
   }
-  /// Whether the first step bears a load at once, and without most of it by a straight rise.
-  [[nodiscard]] bool jumps_at_start() const {
-    for (const auto& load : problem_.boundary_loads) {
-      if (load.pressure.at(0.0) != 0.0) return true;
-      for (const auto& along : load.traction)
-        if (along.at(0.0) != 0.0) return true;
+  using Place = typename Cosserat<dim>::Place;
+
+  /// Total force per area of the stress at time zero on a node's share of a boundary, Pa; nothing where no stress is given.
+  [[nodiscard]] std::optional<Place> traction_at_start(const fem::ShareOfSide<dim>& share) const {
+    const SceneRegion& region = scene_.region_of(share.element);
+    const Place& at = problem_.mesh.nodes[static_cast<std::size_t>(share.node)];
+    const auto stress = scene_.initial_stress<dim>(region, at);
+    if (!stress) return {};
+    Place traction = Place::Zero();
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        traction(i) += (*stress)(Cosserat<dim>::stress_place(j, i)) * share.normal(j);
+    const fem::PoreWaterOptions& options = water_.options();
+    if (options.table && water_.regions().contains(region.name))
+      traction -= options.unit_weight * (*options.table - at(dim - 1)) * share.normal;
+    return traction;
+  }
+  /// Whether a load acts at time zero that the stress there does not hold.
+  [[nodiscard]] bool is_sudden(const fem::BoundaryLoad<dim>& load) const {
+    Place along = Place::Zero();
+    for (int i = 0; i < dim; ++i) along(i) = load.traction[static_cast<std::size_t>(i)].at(0.0);
+    const double pressure = load.pressure.at(0.0);
+    if (pressure == 0.0 && along.isZero(0.0)) return false;
+    if (!problem_.mesh.boundaries.contains(load.on)) return true;
+    double given = 0.0;
+    double held = 0.0;
+    for (const fem::ShareOfSide<dim>& share : fem::shares_of_boundary<dim>(problem_.mesh, load.on)) {
+      const Place wanted = along - pressure * share.normal;
+      given += share.area * wanted.norm();
+      // Round-off and coarse inputs: a twentieth of a load makes no overshoot that one sees.
+      if (const auto there = traction_at_start(share);
+          there && (wanted - *there).norm() < 0.05 * wanted.norm())
+        held += share.area * wanted.norm();
     }
+    return held < 0.95 * given;
+  }
+  /// Whether the first step bears a load at once, and without most of it by a straight rise. The loads of a run before are not
+  /// known here.
+  [[nodiscard]] bool jumps_at_start() const {
+    if (scene_.stress_at_start() == Scene::StressAtStart::run_before) return false;
+    if (std::ranges::any_of(problem_.boundary_loads, [&](const auto& load) { return is_sudden(load); }))
+      return true;
     return std::ranges::any_of(problem_.node_loads,
                                [](const auto& load) { return load.value.at(0.0) != 0.0; });
   }

@@ -61,6 +61,40 @@ void look_at_waves(const Scene& scene, const Entry& place, double frequency, Rem
   }
 }
 
+/// An offset of a record carries the base away, faster than it swings. A pulse is no record.
+void look_at_drift(const Entry& place, const CsvTable& table, Remarks& remarks) {
+  constexpr double kMostDrift = 1.0;  // of the largest speed of the record without its mean
+  constexpr int kFewTurns = 3;
+  const auto time = [&](std::size_t row) { return table.number(row, 0); };
+  const std::size_t rows = table.rows();
+  double speed = 0.0;
+  for (std::size_t row = 1; row < rows; ++row)
+    speed += 0.5 * (table.number(row, 1) + table.number(row - 1, 1)) * (time(row) - time(row - 1));
+  const double mean = speed / (time(rows - 1) - time(0));
+  double swing = 0.0;
+  double most = 0.0;
+  int turns = 0;
+  double last = 0.0;  // that was not zero to round-off
+  for (std::size_t row = 1; row < rows; ++row) {
+    const double now = table.number(row, 1) - mean;
+    const double before = table.number(row - 1, 1) - mean;
+    if (std::abs(now) > 1e-9 * std::abs(mean)) {
+      if (now * last < 0.0) ++turns;
+      last = now;
+    }
+    swing += 0.5 * (now + before) * (time(row) - time(row - 1));
+    most = std::max(most, std::abs(swing));
+  }
+  if (turns < kFewTurns || std::abs(speed) <= kMostDrift * most) return;
+  remarks.push_back(
+      {Rank::doubtful, std::abs(speed) / most,
+       place.fault(fmt::format(
+           "boundary: the motion of '{}' ends with {:.3g} mm/s and its swings reach {:.3g} mm/s: an offset of {:.3g} m/s2 "
+           "carries the base away",
+           place.text, 1e3 * speed, 1e3 * most, mean)),
+       "let the accelerations of the file add up to no speed (a baseline correction)"});
+}
+
 void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
   const auto end = scene.end_time();
   const auto file = coupler::find_data_file(place.text, scene.the_case().file.parent_path());
@@ -97,6 +131,7 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
                          "keeps that speed up to {:.4g} s",
                          place.text, last, 1e3 * speed, *end)),
          "let the accelerations of the file add up to no speed (a baseline correction), or end the run there"});
+  look_at_drift(place, table, remarks);
   if (largest > kMostAcceleration)
     remarks.push_back(
         {Rank::wrong, largest / kMostAcceleration,

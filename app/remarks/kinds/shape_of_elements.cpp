@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/remarks/kinds.hpp"
 
@@ -11,35 +12,45 @@ namespace {
 
 constexpr double kLongestElement = 20.0;
 
-/// Longest over shortest side.
-double slenderness(const fem::Mesh<2>& mesh, const fem::Element<2>& element) {
-  const auto corners = static_cast<std::size_t>(element.type->corners);
-  double least = 0.0, largest = 0.0;
-  for (std::size_t k = 0; k < corners; ++k) {
-    const auto node = [&](std::size_t i) {
-      return mesh.nodes[static_cast<std::size_t>(element.nodes[i % corners])];
+/// Longest over shortest edge.
+template <int dim>
+double slenderness(const fem::Mesh<dim>& mesh, const fem::Element<dim>& element) {
+  double least = HUGE_VAL;
+  double largest = 0.0;
+  for (const fem::ElementSide<dim>& side : element.type->sides) {
+    const auto corners = static_cast<std::size_t>(side.type->corners);
+    const auto node = [&](std::size_t k) {
+      const auto local = static_cast<std::size_t>(side.nodes[k % corners]);
+      return mesh.nodes[static_cast<std::size_t>(element.nodes[local])];
     };
-    const double side = (node(k + 1) - node(k)).norm();
-    least = k == 0 ? side : std::min(least, side);
-    largest = std::max(largest, side);
+    for (std::size_t k = 0; k < corners; ++k) {
+      const double edge = (node(k + 1) - node(k)).norm();
+      least = std::min(least, edge);
+      largest = std::max(largest, edge);
+    }
   }
   return largest / least;
 }
 
-}  // namespace
-
-void shape_of_elements(const Scene& scene, Remarks& remarks) {
+template <int dim>
+void look_at_shapes(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   // A column of one element answers to depth alone.
-  if (!scene.problem().ties.empty() || scene.mesh().elements.size() < 2) return;
+  if (!problem.ties.empty() || problem.mesh.elements.size() < 2) return;
   double largest = 0.0;
-  for (const fem::Element<2>& element : scene.mesh().elements)
-    largest = std::max(largest, slenderness(scene.mesh(), element));
+  for (const fem::Element<dim>& element : problem.mesh.elements)
+    largest = std::max(largest, slenderness(problem.mesh, element));
   if (largest <= kLongestElement) return;
   remarks.push_back({Rank::doubtful, largest / kLongestElement,
                      scene.place({"mesh"}).fault(fmt::format(
                          "mesh: its elements are up to {:.3g} times as long as wide (at most {:.0f})",
                          largest, kLongestElement)),
-                     "divide the mesh so that elements are nearly square"});
+                     "divide the mesh so that elements are nearly as wide as long"});
+}
+
+}  // namespace
+
+void shape_of_elements(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_shapes(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app

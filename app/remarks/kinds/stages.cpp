@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 
 namespace polargrain::app {
@@ -68,6 +69,30 @@ std::vector<double> begins_of(const Scene& scene) {
   return begins;
 }
 
+/// Whether a stage after the first and up to the last of these ends the item of that name.
+bool is_ended(const Entry& stages, std::size_t first, std::size_t last, const Entry* name) {
+  for (std::size_t k = first + 1; name != nullptr && k <= last; ++k) {
+    const Entry* const end = stages.items[k].find("end");
+    if (end == nullptr) continue;
+    const auto is_name = [&](const Entry& word) { return word.text == name->text; };
+    if (is_name(*end) || std::ranges::any_of(end->items, is_name)) return true;
+  }
+  return false;
+}
+
+/// A pressure of a stage that comes along it: a single value, Pa.
+std::optional<double> single_pressure(const Entry& item) {
+  const Entry* const value = item.find("pressure");
+  if (value == nullptr || value->kind != Entry::Kind::scalar) return {};
+  return coupler::parse_quantity(value->text, coupler::Dimension::pressure);
+}
+
+bool are_on_one_place(const Entry& one, const Entry& other) {
+  const Entry* const on = one.find("on");
+  const Entry* const there = other.find("on");
+  return on != nullptr && there != nullptr && !on->text.empty() && on->text == there->text;
+}
+
 }  // namespace
 
 void weight_of_parts(const Scene& scene, Remarks& remarks) {
@@ -110,6 +135,44 @@ void loads_of_stages(const Scene& scene, Remarks& remarks) {
                  begins[k], begins[k] + 1.0)});
       }
     }
+}
+
+namespace {
+
+/// The pressure of a stage on a place that an earlier stage loads by less: most often the new whole is meant.
+void look_at_sum(const Scene& scene, const Entry& stages, std::size_t before, std::size_t now,
+                 Remarks& remarks) {
+  const Entry* const earlier = stages.items[before].find("boundary");
+  const Entry* const later = stages.items[now].find("boundary");
+  if (earlier == nullptr || later == nullptr) return;
+  for (const Entry& one : earlier->items)
+    for (const Entry& other : later->items) {
+      const auto first = single_pressure(one);
+      const auto second = single_pressure(other);
+      if (!first || !second || !(*first > 0.0) || *second <= *first || !are_on_one_place(one, other) ||
+          is_ended(stages, before, now, one.find("name")))
+        continue;
+      remarks.push_back(
+          {Rank::doubtful, 2.0,
+           other.find("pressure")
+               ->fault(fmt::format(
+                   "boundary: stage '{}' adds {} on '{}' to the {} of stage '{}': {} together",
+                   scene.the_case().stages[now].name, pascals(*second), other.find("on")->text,
+                   pascals(*first), scene.the_case().stages[before].name, pascals(*first + *second))),
+           fmt::format(
+               "loads of stages add up: give the increase, {}, or name the first (name: NAME) and end it "
+               "(end: NAME)",
+               pascals(*second - *first))});
+    }
+}
+
+}  // namespace
+
+void sums_of_stages(const Scene& scene, Remarks& remarks) {
+  const Entry* const stages = scene.find({"steps", "stages"});
+  if (stages == nullptr || stages->items.size() != scene.the_case().stages.size()) return;
+  for (std::size_t now = 1; now < stages->items.size(); ++now)
+    for (std::size_t before = 0; before < now; ++before) look_at_sum(scene, *stages, before, now, remarks);
 }
 
 }  // namespace polargrain::app

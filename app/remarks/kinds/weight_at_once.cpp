@@ -11,17 +11,18 @@
 namespace polargrain::app {
 namespace {
 
-double weight_on(const Scene& scene, const SceneRegion& region) {
+/// Downwards at time zero, N/m3.
+template <int dim>
+double weight_on(const fem::Problem<dim>& problem, const SceneRegion& region) {
   double weight = 0.0;
-  for (const fem::BodyLoad<2>& load : scene.problem().body_loads)
+  for (const fem::BodyLoad<dim>& load : problem.body_loads)
     if (load.region.empty() || load.region == region.name)
-      weight -= load.factor.at(0.0) * load.density(scene.body().least).y();
+      weight -= load.factor.at(0.0) * load.density(problem.mesh.nodes.front())(dim - 1);
   return weight;
 }
 
-}  // namespace
-
-void weight_at_once(const Scene& scene, Remarks& remarks) {
+template <int dim>
+void look_at_weight_at_once(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   if (scene.stress_at_start() == Scene::StressAtStart::run_before) return;  // its weight acts already
   const auto& monitors = scene.the_case().monitors;
   const auto reads =
@@ -29,10 +30,10 @@ void weight_at_once(const Scene& scene, Remarks& remarks) {
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell != nullptr || region.comes_later || region.elements.empty() || !is_strong(scene, region))
       continue;
-    const double weight = weight_on(scene, region);
-    const int node = scene.mesh().elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
+    const double weight = weight_on(problem, region);
+    const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
     if (weight <= 0.0 ||
-        scene.initial_stress<2>(region, scene.mesh().nodes[static_cast<std::size_t>(node)]).has_value())
+        scene.initial_stress<dim>(region, problem.mesh.nodes[static_cast<std::size_t>(node)]).has_value())
       continue;
     remarks.push_back(
         {Rank::doubtful, 1.0,
@@ -47,6 +48,12 @@ void weight_at_once(const Scene& scene, Remarks& remarks) {
          "steps, factor: [[0, 0], [1, 1]]"});
     return;
   }
+}
+
+}  // namespace
+
+void weight_at_once(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_weight_at_once(scene, problem, remarks); });
 }
 
 }  // namespace polargrain::app
