@@ -49,6 +49,16 @@ double reach_of(const std::string& name, const std::vector<std::string>& columns
   return reach;
 }
 
+/// Whether a column still grows at the end of the test: its largest value is that of the last row.
+bool is_rising(const std::string& name, const std::vector<std::string>& columns,
+               const std::vector<std::vector<double>>& rows) {
+  const auto column = static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  if (column >= columns.size() || rows.size() < 2) return false;
+  const auto size_of = [&](const std::vector<double>& row) { return std::abs(row[column]); };
+  return std::ranges::all_of(
+      rows, [&](const auto& row) { return &row == &rows.back() || size_of(row) < size_of(rows.back()); });
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of_curves(
@@ -65,6 +75,13 @@ std::vector<std::string> doubts_of_curves(
     pair.tests.push_back(*value);
   }
   std::vector<std::string> doubts;
+  for (const TargetPoint& point : calibration.points)
+    if (point.where == TargetPoint::Where::largest &&
+        is_rising(point.column, columns[point.test], curves[point.test].front()))
+      doubts.push_back(fmt::format(
+          "{} of test '{}': its largest value is that of the last row, so no peak was reached: let the test go on, or write "
+          "'last' for 'largest'",
+          point.column, calibration.test_names[point.test]));
   for (const auto& [which, pair] : pairs) {
     const auto& [test, column, along] = which;
     const std::string of = fmt::format("{} of test '{}'", column, calibration.test_names[test]);

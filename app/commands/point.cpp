@@ -113,6 +113,7 @@ bool follow(fem::Material<2>& material, const std::vector<Increment<2>>& path, A
   material.allocate(1);
   for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
   std::vector<double> fields(material.field_names().size());
+  std::size_t unreliable = 0;
   for (std::size_t i = 0; i <= path.size(); ++i) {
     const Increment<2> increment = i == 0 ? Increment<2>{} : path[i - 1];
     Response<2> response;
@@ -122,11 +123,15 @@ bool follow(fem::Material<2>& material, const std::vector<Increment<2>>& path, A
       material.fields(0, fields);
     }
     table.answer(i, response, fields);
+    if (response.quality == Quality::unreliable) ++unreliable;
     if (response.quality == Quality::failed) {
       tell(stderr, "error: increment {} failed: {}\n", i, response.message);
       return false;
     }
   }
+  if (unreliable > 0)
+    tell(stderr, "warning: {} of {} answers are unreliable (column status): take smaller increments\n",
+         unreliable, path.size() + 1);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/remarks/few_grains.hpp"
 #include "common/elementary_functions.hpp"
@@ -64,32 +65,116 @@ void look_at_stiffness(const Entry& material, double pressure, Remarks& remarks)
                        place.fault(fmt::format("material: E is {:.4g} kPa", 1e-3 * *young)), remedy});
 }
 
-/// In triaxial compression, degrees: the inverse of M = 6 sin / (3 - sin).
-double angle_in_compression(const fem::FrozenCone& cone) {
-  return arc_sine(3.0 * cone.friction / (6.0 + cone.friction)) * 180.0 / std::numbers::pi;
+/// States that a test brings a cone to.
+enum class TestState { compression, extension, plane_strain };
+
+/// Of a stage that loads axis 2 under lateral stresses that stay; nothing of other stages.
+std::optional<TestState> state_of(const element::Stage& stage) {
+  using element::Constraint;
+  if (stage.name == "simple_shear") return TestState::plane_strain;
+  const Constraint* axial = nullptr;
+  bool lateral_stays = stage.pore >= 0;
+  bool third_is_stress = false;
+  for (const Constraint& constraint : stage.constraints) {
+    const bool is_stress = constraint.kind == Constraint::Kind::stress;
+    const bool is_held = constraint.way == Constraint::Way::hold;
+    if (!is_held && constraint.amount != 0.0 &&
+        (constraint.place == k22 || (is_stress && constraint.place < 0)))
+      axial = &constraint;
+    if (constraint.place == k11 && is_stress && is_held) lateral_stays = true;
+    if (constraint.place == k33 && is_stress) third_is_stress = true;
+    if (constraint.place < 0 && is_stress && constraint.amount == 0.0) third_is_stress = true;
+  }
+  if (axial == nullptr || !lateral_stays) return {};
+  if (!third_is_stress) return TestState::plane_strain;
+  // A deviator counts compression as positive, a component tension.
+  const bool is_deviator = axial->place < 0;
+  return (axial->amount > 0.0) == is_deviator || axial->way == Constraint::Way::cycle ? TestState::compression
+                                                                                      : TestState::extension;
 }
 
-/// The strength of the default cone is that of plane strain. The test is another one.
+const char* name_of(TestState state) {
+  switch (state) {
+    case TestState::compression:
+      return "triaxial compression";
+    case TestState::extension:
+      return "triaxial extension";
+    case TestState::plane_strain:
+      break;
+  }
+  return "plane strain";
+}
+
+/// The friction angle of a cone in a state, degrees; nothing where it has no limit there.
+std::optional<double> angle_in(const fem::FrozenCone& cone, TestState state) {
+  switch (state) {
+    case TestState::compression:  // the inverse of M = 6 sin / (3 - sin)
+      return arc_sine(3.0 * cone.friction / (6.0 + cone.friction)) * 180.0 / std::numbers::pi;
+    case TestState::extension:
+      return fem::angle_in_extension(cone);
+    case TestState::plane_strain:
+      break;
+  }
+  const auto strength = fem::plane_strain_from_cone(cone);
+  return strength ? std::optional(strength->friction_angle) : std::nullopt;
+}
+
+/// A cone has its friction angle in the states of `match` alone, by default in plane strain. Where that is given, a strength far above
+/// the angle is told.
 void look_at_cone(const Entry& material, const ElementSpecification& specification, Remarks& remarks) {
+  constexpr double kFarAngle = 1.25;
+  constexpr double kNearAngle = 0.02;
   const Entry* const model = material.find("model");
-  if (model == nullptr || model->text != "elastoplastic" || material.find("match") != nullptr) return;
-  const auto is_triaxial = [](const element::Stage& stage) { return stage.name == "triaxial"; };
-  if (std::ranges::none_of(specification.stages, is_triaxial)) return;
+  if (model == nullptr || model->text != "elastoplastic") return;
   const auto friction = number_of(material, "friction_angle", Dimension::angle);
   if (!friction || !(*friction > 0.0)) return;
+  const Entry* const given = material.find("match");
+  constexpr std::pair<const char*, fem::ConeMatch> kMatches[] = {
+      {"plane_strain", fem::ConeMatch::plane_strain},
+      {"triaxial_compression", fem::ConeMatch::triaxial_compression},
+      {"triaxial_extension", fem::ConeMatch::triaxial_extension},
+      {"inner", fem::ConeMatch::inner}};
+  const auto match = std::ranges::find_if(kMatches, [&](const auto& known) {
+    return known.first == (given == nullptr ? std::string("plane_strain") : given->text);
+  });
+  if (match == std::end(kMatches)) return;
   constexpr double kOneRadian = 180.0 / std::numbers::pi;
   const double dilatancy = number_of(material, "dilatancy_angle", Dimension::angle).value_or(0.0);
   const double degrees = kOneRadian * *friction;
-  const double there = angle_in_compression(
-      fem::matched_cone({degrees, kOneRadian * dilatancy, 0.0}, fem::ConeMatch::plane_strain));
+  const fem::FrozenCone cone = fem::matched_cone({degrees, kOneRadian * dilatancy, 0.0}, match->second);
+  for (const element::Stage& stage : specification.stages) {
+    const auto state = state_of(stage);
+    if (!state) continue;
+    const auto there = angle_in(cone, *state);
+    if (there && std::abs(*there - degrees) <= kNearAngle * degrees) continue;
+    if (given != nullptr && there && *there < kFarAngle * degrees) continue;
+    std::string word = name_of(*state);
+    std::ranges::replace(word, ' ', '_');
+    remarks.push_back(
+        {Rank::doubtful, there ? std::max(degrees / *there, *there / degrees) : 10.0,
+         material.find("friction_angle")
+             ->fault(
+                 fmt::format("material: {:.4g} deg hold {}{}; in {} this cone has {}", degrees,
+                             given == nullptr ? "in plane strain, the default here" : "where 'match' says: ",
+                             given == nullptr ? "" : given->text, name_of(*state),
+                             there ? fmt::format("{:.4g} deg", *there) : std::string("no limit"))),
+         given == nullptr ? fmt::format("match: {}; or say 'match: plane_strain' if it is meant", word)
+                          : fmt::format("match: {}", word)});
+    return;
+  }
+}
+
+/// The bound is that of `check` (kinds/laws.cpp).
+void look_at_cohesion(const Entry& material, double pressure, Remarks& remarks) {
+  constexpr double kMostCohesion = 10.0;  // of the pressure
+  const auto cohesion = number_of(material, "cohesion", Dimension::pressure);
+  if (!cohesion || *cohesion <= kMostCohesion * pressure) return;
   remarks.push_back(
-      {Rank::doubtful, degrees / there,
-       material.find("friction_angle")
-           ->fault(fmt::format(
-               "material: {:.4g} deg hold in plane strain, the default here; in triaxial compression this "
-               "cone has {:.4g} deg",
-               degrees, there)),
-       "match: triaxial_compression; or say 'match: plane_strain' if it is meant"});
+      {Rank::doubtful, *cohesion / pressure / kMostCohesion,
+       material.find("cohesion")
+           ->fault(fmt::format("material: a cohesion of {:.4g} kPa, and the pressure is {:.4g} kPa",
+                               1e-3 * *cohesion, 1e-3 * pressure)),
+       "check the unit of the cohesion and of the pressure"});
 }
 
 }  // namespace
@@ -102,6 +187,7 @@ Remarks remarks_on_element(const Entry& document, std::span<const ElementSpecifi
     const double pressure =
         std::ranges::max_element(specifications, {}, &ElementSpecification::pressure)->pressure;
     look_at_stiffness(*material, pressure, remarks);
+    look_at_cohesion(*material, pressure, remarks);
     look_at_cone(*material, first, remarks);
   }
   std::ranges::stable_sort(remarks, [](const Remark& a, const Remark& b) {

@@ -111,8 +111,10 @@ void read_material(const Entry& entry, ElementSpecification& specification, Faul
   specification.material = model->read("material", section, faults, files);
   section.finish();
   specification.names = {name};
-  specification.room = element::Room::plane_strain;
+  // A law with a fault may be of space: no second fault for that.
+  specification.room = element::Room::space;
   if (specification.material == nullptr) return;
+  specification.room = element::Room::plane_strain;
   if (!specification.material->needs_workers())
     specification.room = coupler::room_of(*specification.material->make(nullptr));
   if (!specification.material->knows_s33()) specification.room = element::Room::discs;

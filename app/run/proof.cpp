@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// The files that a run leaves and nothing changes afterwards.
 constexpr std::array kFiles{"history.csv", "costs.csv", "run.log",      "fields.pvd",
                             "points.pvd",  kSampleFile, kCheckpointFile};
-constexpr std::array kFolders{"fields", kCellPathsFolder};
+constexpr std::array kFolders{"fields", "profiles", kCellPathsFolder};
 
 /// The files that later commands write, or that belong to one machine and one day.
 constexpr std::array kOthers{"report.html",         "band.json",        "band.csv", "grains",

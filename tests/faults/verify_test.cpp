@@ -53,6 +53,9 @@ TEST_F(Verify, SamplesDoNotDependOnTheNumberOfWorkers) {
 }
 
 TEST_F(Verify, FindsWhatWasChanged) {
+  write(scratch_.path() / "case.yaml",
+        result("case.yaml") +
+            "profiles: {axis: {from: [1 mm, 1 mm], to: [1 mm, 2 mm], points: 2, values: [s22]}}\n");
   ASSERT_EQ(polargrain("run case.yaml -o out -w 1 --quiet").status, 0);
   const auto expect_difference = [this](const std::string& what) {
     const Outcome outcome = polargrain("verify out -w 1");
@@ -73,6 +76,7 @@ TEST_F(Verify, FindsWhatWasChanged) {
   around("out/checkpoint.h5", "top_force", "tip_force", "checkpoint.h5 was changed after the run");
   around("out/cell_paths/step-00001.h5", "increment", "Increment", "cell_paths was changed after the run");
   around("out/fields/step-00002.vtu", "VTKFile", "vtkFile", "fields was changed after the run");
+  around("out/profiles/axis-00002.csv", "\n0,", "\n9,", "profiles was changed after the run");
   around("fake.in", "0.1", "0.2", "materials.sand.script: the file 'fake.in' has another content");
   around("case.yaml", "40 MPa", "41 MPa", "materials.sand.G: was '40 MPa', is '41 MPa'");
   write(scratch_.path() / "out/fields/step-00099.vtu", "one more");

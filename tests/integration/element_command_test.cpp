@@ -306,6 +306,25 @@ TEST_F(ElementCommand, RemarksComeBeforeTheTest) {
   const Outcome meant =
       run_text("pressure: 100 kPa\n" + rest + "  E: 50 MPa\n  match: triaxial_compression\n");
   EXPECT_EQ(meant.out.find("doubtful"), std::string::npos) << meant.out;
+  const auto of_test = [&](const std::string& test, const std::string& match) {
+    std::string text = rest;
+    text.replace(text.find("triaxial\naxial_strain: 1 %"), 26, test);
+    return run_text("pressure: 100 kPa\n" + text + "  E: 50 MPa\n  match: " + match + "\n").out;
+  };
+  for (const auto& [test, state] : {std::pair{"triaxial\naxial_strain: -1 %", "triaxial extension"},
+                                    {"biaxial\naxial_strain: 1 %", "plane strain"},
+                                    {"simple_shear\nshear_strain: 1 %", "plane strain"}})
+    EXPECT_NE(of_test(test, "triaxial_compression")
+                  .find(std::string("30 deg hold where 'match' says: triaxial_compression; in ") + state),
+              std::string::npos)
+        << of_test(test, "triaxial_compression");
+  EXPECT_EQ(of_test("biaxial\naxial_strain: 1 %", "plane_strain").find("doubtful"), std::string::npos);
+  std::string wrong_unit = rest;
+  wrong_unit.replace(wrong_unit.find("1 kPa"), 5, "5 MPa");
+  const Outcome cohesive =
+      run_text("pressure: 100 kPa\n" + wrong_unit + "  E: 50 MPa\n  match: triaxial_compression\n");
+  EXPECT_NE(cohesive.out.find("a cohesion of 5000 kPa, and the pressure is 100 kPa"), std::string::npos)
+      << cohesive.out;
   const Outcome soft =
       run_text("pressure: 10 kPa\n" + rest + "  E: 500 kPa\n  match: triaxial_compression\n");
   EXPECT_NE(soft.out.find("doubtful: spec.yaml:13: material: E is 500 kPa; check the unit of E"),
