@@ -152,7 +152,7 @@ template <int dim>
 void Loads<dim>::add_node_load(const Problem<dim>& problem, const NodeLoad& load) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
   std::vector<char> there;
-  if (!there_.empty()) there = nodes_of_elements(problem.mesh, there_);
+  if (!there_.empty()) there = nodes_in_stage(problem.mesh, there_);
   for (const int node : problem.mesh.nodes_on(load.on))
     if (there.empty() || there[static_cast<std::size_t>(node)] != 0)
       forces(entry_of<dim>(node, load.dof)) += 1.0;

@@ -418,8 +418,8 @@ std::vector<int> nodes_there(const Problem<dim>& problem, int stage, const std::
   std::vector<int> nodes = problem.mesh.nodes_on(on);
   const std::vector<char> there = elements_in_stage(problem, stage);
   if (there.empty()) return nodes;
-  const std::vector<char> has_element = nodes_of_elements(problem.mesh, there);
-  const auto is_left = [&](int node) { return has_element[static_cast<std::size_t>(node)] != 0; };
+  const std::vector<char> left = nodes_in_stage(problem.mesh, there);
+  const auto is_left = [&](int node) { return left[static_cast<std::size_t>(node)] != 0; };
   if (std::ranges::any_of(nodes, is_left)) std::erase_if(nodes, [&](int node) { return !is_left(node); });
   return nodes;
 }

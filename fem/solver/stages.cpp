@@ -59,16 +59,20 @@ std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::strin
 }
 
 template <int dim>
+std::vector<char> nodes_in_stage(const Mesh<dim>& mesh, const std::vector<char>& there) {
+  std::vector<char> nodes = nodes_of_elements(mesh, there);
+  const std::vector<char> of_mesh = nodes_of_elements(mesh, {});
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+    if (of_mesh[node] == 0) nodes[node] = 1;
+  return nodes;
+}
+
+template <int dim>
 std::vector<std::pair<int, int>> joined_nodes(const Problem<dim>& problem, int stage) {
   const std::vector<char> there = elements_in_stage(problem, stage);
   std::vector<std::pair<int, int>> all;
-  // Nodes of elements that are not there take no part; nodes of beams and rigid walls have no elements at any time.
-  const std::vector<char> of_mesh = nodes_of_elements(problem.mesh, {});
-  const std::vector<char> left = nodes_of_elements(problem.mesh, there);
-  const auto takes_part = [&](int node) {
-    const auto number = static_cast<std::size_t>(node);
-    return of_mesh[number] == 0 || left[number] != 0;
-  };
+  const std::vector<char> left = nodes_in_stage(problem.mesh, there);
+  const auto takes_part = [&](int node) { return left[static_cast<std::size_t>(node)] != 0; };
   for (const auto& contribution : problem.contributions) {
     const bool holds = contribution->life.holds(stage) || !contribution->tied_nodes(stage).empty();
     if (!holds) continue;
@@ -82,6 +86,8 @@ template std::vector<std::pair<int, int>> joined_nodes<2>(const Problem<2>&, int
 template std::vector<std::pair<int, int>> joined_nodes<3>(const Problem<3>&, int);
 template std::vector<char> elements_in_stage<2>(const Problem<2>&, int);
 template std::vector<char> elements_in_stage<3>(const Problem<3>&, int);
+template std::vector<char> nodes_in_stage<2>(const Mesh<2>&, const std::vector<char>&);
+template std::vector<char> nodes_in_stage<3>(const Mesh<3>&, const std::vector<char>&);
 template std::vector<char> nodes_of_elements<2>(const Mesh<2>&, const std::vector<char>&);
 template std::vector<char> nodes_of_elements<3>(const Mesh<3>&, const std::vector<char>&);
 template std::vector<BoundarySide> sides_in_stage<2>(const Mesh<2>&, const std::string&,

@@ -28,6 +28,10 @@ std::vector<char> elements_in_stage(const Problem<dim>& problem, int stage);
 template <int dim>
 std::vector<char> nodes_of_elements(const Mesh<dim>& mesh, const std::vector<char>& there);
 
+/// The same, and the nodes of beams and rigid walls, which have no element at any time.
+template <int dim>
+std::vector<char> nodes_in_stage(const Mesh<dim>& mesh, const std::vector<char>& there);
+
 /// The sides of a boundary that a load acts on: sides of elements that are there. Where a curve lies between two regions, the
 /// side is that of the element left when the other one has gone; while both are there, the curve is inside of the body and
 /// has no such side.

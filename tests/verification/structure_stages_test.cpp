@@ -276,6 +276,22 @@ TEST(StructureStages, ARodIsLockedBeforeAStageThatNamesNoChange) {
   }
 }
 
+// The nodes of a wall belong to no element of the ground, and carry loads all the same where ground has gone.
+TEST(StructureStages, AForceMovesAWallWhoseGroundWasDugAway) {
+  const auto head = [](const std::string& force) {
+    const auto solver =
+        run(read(ground(std::string(kPlace) + kOneCut + "    - {name: push, count: 1" + force + "}\n")));
+    return solver->mean_displacement("wall_top")(0);
+  };
+  const auto push = [](const std::string& size) {
+    return ", boundary: [{on: wall_top, node_force: {u1: " + size + " kN/m}}]";
+  };
+  const double still = head("");
+  const double once = head(push("20")) - still;
+  EXPECT_GT(once, 1e-3);
+  EXPECT_NEAR((head(push("40")) - still) / once, 2.0, 1e-6);
+}
+
 // The state of a stage with a wall that has come is kept in a checkpoint.
 TEST(StructureStages, AreRestoredInTheMiddleOfAStage) {
   const Case the_case = read(ground(kPlace + std::string(kFiveCuts)));
