@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "common/error.hpp"
@@ -110,7 +111,22 @@ void Beam::commit() {
   for (Part& part : parts_) {
     for (Point& point : part.points) point.plastic_curvature = point.answer.plastic_curvature;
     part.committed_forces = part.forces;
+    const auto nodes = static_cast<Eigen::Index>(part.element.nodes.size());
+    for (const std::size_t end : {0, 1}) {
+      constexpr double kAbovePlastic = 1.05;
+      const double moment = std::abs(part.forces(2 * nodes + static_cast<Eigen::Index>(end)));
+      if (told_hinge_ || !(moment > kAbovePlastic * section_.plastic_moment)) continue;
+      told_hinge_ = true;
+      notes_.push_back(fmt::format(
+          "{}: its moment at {} is {:.3g} times Mp: hinges form within its elements, so that it resists by as much "
+          "more and collapses too late; divide it more finely there",
+          name(), place_text<2>(part.places[end]), moment / section_.plastic_moment));
+    }
   }
+}
+
+std::vector<std::string> Beam::take_notes() {
+  return std::exchange(notes_, {});
 }
 
 void Beam::revert() {

@@ -51,6 +51,8 @@ class Beam : public Contribution<2> {
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
   void commit() override;
   void revert() override;
+  /// Tells once where a moment at a node is above Mp: points within elements have yielded, and the hinge resists by more.
+  [[nodiscard]] std::vector<std::string> take_notes() override;
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
   [[nodiscard]] std::vector<std::pair<int, int>> joined_nodes() const override;
@@ -87,6 +89,8 @@ class Beam : public Contribution<2> {
   BeamSection section_;
   std::vector<Part> parts_;
   bool active_ = true;  ///< in the stage
+  bool told_hinge_ = false;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace polargrain::fem

@@ -2,6 +2,8 @@
 // Beams and anchors: against closed forms, and figures of an independent code where the mesh has a share in them.
 #include "fem/beam/beam.hpp"
 
+#include <fmt/format.h>
+
 #include "tests/support/structures.hpp"
 
 using namespace polargrain;
@@ -139,6 +141,42 @@ TEST(beam, yields_at_its_plastic_moment) {
   ASSERT_TRUE(solver.advance(3.0).converged);
   for (const BeamResult& end : beam->results(solver.problem()))
     EXPECT_NEAR(std::abs(end.moment), 6e3 - 2e6 * 2e-3 / 2.0, 1e-4);
+}
+
+// A clamped beam under a line load: hinges at its ends at 12 Mp / L^2. Elements whose points have yielded resist by more there.
+TEST(beam, tells_of_moments_above_its_plastic_one) {
+  constexpr double kLength = 4.0, kPlastic = 1e5;
+  constexpr double kFirst = 12.0 * kPlastic / (kLength * kLength);
+  for (const int elements : {4, 8}) {
+    BeamOnTop scene(kLength, elements, "Q8R", {1e9, 1e7, 1e12, kPlastic});
+    scene.name("left end", 0.0);
+    scene.name("right end", kLength);
+    scene.clamp("left end");
+    scene.clamp("right end");
+    const double h = kLength / elements;
+    for (int k = 1; k < 2 * elements; ++k) {
+      const std::string name = fmt::format("node {}", k);
+      scene.name(name, 0.5 * h * k);
+      scene.problem.node_loads.push_back(
+          {name, Dof::u2,
+           TimeTable::ramp(-2.0 * kFirst * (k % 2 == 0 ? h / 3.0 : 2.0 * h / 3.0), 2.0 * kFirst)});
+    }
+    const auto beam = scene.beam;
+    Solver<2> solver(std::move(scene.problem), kStiff);
+    ASSERT_TRUE(solver.equilibrate().converged);
+    ASSERT_TRUE(solver.advance(0.95 * kFirst).converged);
+    EXPECT_TRUE(beam->take_notes().empty());
+    ASSERT_TRUE(solver.advance(1.32 * kFirst).converged);
+    double most = 0.0;
+    for (const BeamResult& end : beam->results(solver.problem()))
+      most = std::max(most, std::abs(end.moment) / kPlastic);
+    EXPECT_GT(most, 1.05);
+    const std::vector<std::string> notes = beam->take_notes();
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes.front().find(" times Mp"), std::string::npos) << notes.front();
+    ASSERT_TRUE(solver.advance(1.33 * kFirst).converged);
+    EXPECT_TRUE(beam->take_notes().empty());
+  }
 }
 
 // A portal frame along three sides of a block, feet clamped, pushed at its head: closed form of slope deflection with one EI.
