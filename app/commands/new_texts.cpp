@@ -125,7 +125,7 @@ constexpr const char* kFootingInSpaceText =
 title: Square footing on ground of spheres
 
 mesh:
-  box: {size: [2 m, 2 m, 1.5 m], elements: [@COLUMNS@, @COLUMNS@, @ROWS@], patch: [0.5 m, 0.5 m, 1.5 m]}
+  box: {size: [2 m, 2 m, 1.5 m], elements: [@COLUMNS@, @COLUMNS@, @ROWS@], patch: [0.5 m, 0.5 m, 1.5 m]}   # one element under the plate: a first look
   element: H20R                     # 20 nodes, 2x2x2 points
 
 @MATERIALS@regions: {patch: sand, rest: sand}   # under the footing, and beside it

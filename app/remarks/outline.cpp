@@ -33,7 +33,16 @@ std::vector<int> corners_of(const fem::Mesh<dim>& mesh, const fem::BoundarySide&
 }
 
 template <int dim>
-OutlineSide<dim> outline_side(const fem::Mesh<dim>& mesh, const fem::BoundarySide& side) {
+std::vector<int> sorted_corners(const fem::Mesh<dim>& mesh, const fem::BoundarySide& side) {
+  std::vector<int> corners = corners_of(mesh, side);
+  std::ranges::sort(corners);
+  return corners;
+}
+
+}  // namespace
+
+template <int dim>
+OutlineSide<dim> side_at(const fem::Mesh<dim>& mesh, const fem::BoundarySide& side) {
   OutlineSide<dim> out{side.element, side.side, mesh.side_nodes(side), corners_of(mesh, side), {}, {},
                        {},           0.0};
   // Faces with nodes amid their edges may be curved.
@@ -53,15 +62,6 @@ OutlineSide<dim> outline_side(const fem::Mesh<dim>& mesh, const fem::BoundarySid
 }
 
 template <int dim>
-std::vector<int> sorted_corners(const fem::Mesh<dim>& mesh, const fem::BoundarySide& side) {
-  std::vector<int> corners = corners_of(mesh, side);
-  std::ranges::sort(corners);
-  return corners;
-}
-
-}  // namespace
-
-template <int dim>
 std::vector<OutlineSide<dim>> outline_of(const fem::Mesh<dim>& mesh) {
   const auto visit = [&](auto&& each) {
     for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
@@ -77,7 +77,7 @@ std::vector<OutlineSide<dim>> outline_of(const fem::Mesh<dim>& mesh) {
   std::vector<OutlineSide<dim>> outline;
   visit([&](const fem::BoundarySide& side) {
     if (elements[sorted_corners(mesh, side)] > 1) return;
-    outline.push_back(outline_side(mesh, side));
+    outline.push_back(side_at(mesh, side));
     if (const auto named = names.find({side.element, side.side}); named != names.end())
       outline.back().names = named->second;
   });
@@ -93,7 +93,7 @@ std::vector<OutlineSide<dim>> sides_of(const fem::Mesh<dim>& mesh, const std::st
     return sides;
   }
   for (const fem::BoundarySide& side : mesh.boundaries.at(boundary)) {
-    sides.push_back(outline_side(mesh, side));
+    sides.push_back(side_at(mesh, side));
     sides.back().names = {boundary};
   }
   return sides;
@@ -168,6 +168,8 @@ int axis_of_plane_strain(const fem::Problem<3>& problem) {
   return found;
 }
 
+template OutlineSide<2> side_at(const fem::Mesh<2>&, const fem::BoundarySide&);
+template OutlineSide<3> side_at(const fem::Mesh<3>&, const fem::BoundarySide&);
 template std::vector<OutlineSide<2>> outline_of(const fem::Mesh<2>&);
 template std::vector<OutlineSide<3>> outline_of(const fem::Mesh<3>&);
 template std::vector<OutlineSide<2>> sides_of(const fem::Mesh<2>&, const std::string&);

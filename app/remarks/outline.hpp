@@ -24,6 +24,10 @@ struct OutlineSide {
   double size;                     ///< m; in space m2
 };
 
+/// A side of an element, on the outline or not; in no boundary.
+template <int dim>
+OutlineSide<dim> side_at(const fem::Mesh<dim>& mesh, const fem::BoundarySide& side);
+
 /// All sides of one element alone, in the order of the elements and their sides.
 template <int dim>
 std::vector<OutlineSide<dim>> outline_of(const fem::Mesh<dim>& mesh);

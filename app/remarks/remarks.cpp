@@ -14,90 +14,74 @@
 namespace polargrain::app {
 namespace {
 
-/// The bodies that a kind of remarks knows.
-enum class Bodies { plane, space, both };
-
 struct Kind {
   RemarkKind look;
-  Bodies bodies;
   /// It weighs loads against the stress of the skeleton alone, as if there were no water.
   bool of_dry_ground = false;
 };
 
 /// The kinds that look at loads and stresses at time zero, one by one.
-constexpr Kind kAtTimeZero[] = {{loads_at_start, Bodies::both, true},
-                                {weight_in_boxes, Bodies::both},
-                                {load_on_held, Bodies::both},
-                                {plain_loads, Bodies::both},
-                                {tension, Bodies::both},
-                                {ground_stress, Bodies::both},
-                                {weight, Bodies::both},
-                                {free_sides, Bodies::both},
-                                {stiffness_of_laws, Bodies::both},
-                                {loads_twice, Bodies::both}};
+constexpr Kind kAtTimeZero[] = {
+    {loads_at_start, true}, {weight_in_boxes}, {load_on_held}, {plain_loads},       {tension},
+    {ground_stress},        {weight},          {free_sides},   {stiffness_of_laws}, {loads_twice}};
 
 /// All loads and stresses at time zero together: told where the kinds above have no remark.
-constexpr Kind kBalance[] = {{balance_at_start, Bodies::both, true}};
+constexpr Kind kBalance[] = {{balance_at_start, true}};
 
-constexpr Kind kOtherRemarks[] = {{movement, Bodies::both},
-                                  {times_of_loads, Bodies::both},
-                                  {idle_steps, Bodies::both},
-                                  {growing_steps, Bodies::both},
-                                  {missed_turns, Bodies::both},
-                                  {open_seams, Bodies::both},
-                                  {steps_of_strain, Bodies::both},
-                                  {internal_length, Bodies::both},
-                                  {plastic_length, Bodies::both},
-                                  {few_grains, Bodies::both},
-                                  {softness, Bodies::both},
-                                  {size_of_grains, Bodies::both},
-                                  {unread_properties, Bodies::both},
-                                  {contact_numbers, Bodies::both},
-                                  {neighbours, Bodies::both},
-                                  {tolerances, Bodies::both},
-                                  {softening_cauchy, Bodies::both},
-                                  {strength_of_laws, Bodies::both},
-                                  {monitors, Bodies::both},
-                                  {measures, Bodies::both},
-                                  {formulas, Bodies::both},
-                                  {output, Bodies::both},
-                                  {cost, Bodies::both},
-                                  {moduli, Bodies::both},
-                                  {node_forces, Bodies::both},
-                                  {weight_at_once, Bodies::both, true},
-                                  {pulled_apart, Bodies::both},
-                                  {carried_along, Bodies::both},
-                                  {held_sides, Bodies::both},
-                                  {narrow_plates, Bodies::plane},
-                                  {shape_of_elements, Bodies::both},
-                                  {places_of_monitors, Bodies::both},
-                                  {ends_of_profiles, Bodies::both},
-                                  {structures, Bodies::plane},
-                                  {weight_of_parts, Bodies::both},
-                                  {loads_of_stages, Bodies::both},
-                                  {sums_of_stages, Bodies::both},
-                                  {densities, Bodies::both},
-                                  {motions, Bodies::both},
-                                  {pore_water, Bodies::both},
-                                  {drains_dug_away, Bodies::both},
-                                  {loads_behind_walls, Bodies::both},
-                                  {polygons_of_cylinders, Bodies::space},
-                                  {end_of_run_before, Bodies::both}};
+constexpr Kind kOtherRemarks[] = {{movement},
+                                  {times_of_loads},
+                                  {idle_steps},
+                                  {growing_steps},
+                                  {missed_turns},
+                                  {open_seams},
+                                  {steps_of_strain},
+                                  {internal_length},
+                                  {plastic_length},
+                                  {few_grains},
+                                  {softness},
+                                  {size_of_grains},
+                                  {unread_properties},
+                                  {contact_numbers},
+                                  {neighbours},
+                                  {tolerances},
+                                  {softening_cauchy},
+                                  {strength_of_laws},
+                                  {monitors},
+                                  {measures},
+                                  {formulas},
+                                  {output},
+                                  {cost},
+                                  {moduli},
+                                  {node_forces},
+                                  {weight_at_once, true},
+                                  {pulled_apart},
+                                  {carried_along},
+                                  {held_sides},
+                                  {narrow_plates},
+                                  {shape_of_elements},
+                                  {places_of_monitors},
+                                  {ends_of_profiles},
+                                  {structures},
+                                  {weight_of_parts},
+                                  {loads_of_stages},
+                                  {sums_of_stages},
+                                  {densities},
+                                  {motions},
+                                  {pore_water},
+                                  {drains_dug_away},
+                                  {loads_behind_walls},
+                                  {polygons_of_cylinders},
+                                  {end_of_run_before}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
-  const Bodies here = scene.dimension() == 3 ? Bodies::space : Bodies::plane;
   const bool is_wet = scene.find({"water"}) != nullptr;
-  for (const Kind& kind : kinds) {
-    const bool is_of_body = kind.bodies == here || kind.bodies == Bodies::both;
-    if (is_of_body && !(is_wet && kind.of_dry_ground)) kind.look(scene, remarks);
-  }
+  for (const Kind& kind : kinds)
+    if (!(is_wet && kind.of_dry_ground)) kind.look(scene, remarks);
 }
 
 /// Kinds that later stages may have too, by their supports and loads.
-constexpr Kind kInEachStage[] = {{load_on_held, Bodies::both}, {plain_loads, Bodies::both},
-                                 {weight, Bodies::both},       {movement, Bodies::both},
-                                 {node_forces, Bodies::both},  {loads_twice, Bodies::both},
-                                 {tension, Bodies::both}};
+constexpr Kind kInEachStage[] = {{load_on_held}, {plain_loads}, {weight}, {movement},
+                                 {node_forces},  {loads_twice}, {tension}};
 
 /// An item that stays through several stages is told once.
 void look_at_later_stages(const Scene& scene, Remarks& remarks) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
 #include "app/remarks/outline.hpp"
 #include "fem/mesh/box_around.hpp"
 
@@ -75,7 +76,10 @@ class Ends {
 
 template <int dim>
 void look_at_sides(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
-  if (!has_weight(problem)) return;
+  // An elastic body cannot flow.
+  const bool may_flow = std::ranges::any_of(
+      scene.regions(), [&](const SceneRegion& region) { return is_strong(scene, region); });
+  if (!has_weight(problem) || !may_flow) return;
   const Ends<dim> ends(problem);
   const auto sides = ends.box().sides();
   for (int axis = 0; axis < dim - 1; ++axis) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Interfaces, beams and anchors against the ground beside them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "app/remarks/outline.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -50,14 +52,15 @@ struct Beside {
   std::string material = {};
 };
 
-Beside beside(const Scene& scene, const std::string& on) {
-  std::vector<int> nodes = scene.mesh().nodes_on(on);
+template <int dim>
+Beside beside(const Scene& scene, const fem::Mesh<dim>& mesh, const std::string& on) {
+  std::vector<int> nodes = mesh.nodes_on(on);
   std::ranges::sort(nodes);
   Beside found;
-  for (std::size_t e = 0; e < scene.mesh().elements.size(); ++e) {
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto shared = std::ranges::count_if(
-        scene.mesh().elements[e].nodes, [&](int node) { return std::ranges::binary_search(nodes, node); });
-    if (shared < 2) continue;  // a side has two nodes and more
+        mesh.elements[e].nodes, [&](int node) { return std::ranges::binary_search(nodes, node); });
+    if (shared < dim) continue;  // a side has so many corners at least
     const SceneRegion& region = scene.region_of(static_cast<int>(e));
     if (const auto modulus = confined_modulus(scene, region))
       found.stiffness = std::max(found.stiffness, *modulus / scene.body().elements[e]);
@@ -124,70 +127,76 @@ void look_at_beam(const Scene& scene, const std::string& name, Remarks& remarks)
        "check the units: EA in MN/m, EI in MNm2/m, both of a metre of thickness"});
 }
 
-bool holds(const fem::Mesh<2>& mesh, const fem::Element<2>& element, const Eigen::Vector2d& place) {
-  const auto corner = [&](int k) -> const Eigen::Vector2d& {
-    return mesh
-        .nodes[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(k % element.type->corners)])];
-  };
-  for (int k = 0; k < element.type->corners; ++k) {
-    const Eigen::Vector2d side = corner(k + 1) - corner(k);
-    const Eigen::Vector2d way = place - corner(k);
-    if (side.x() * way.y() - side.y() * way.x() < 0.0) return false;
+template <int dim>
+bool holds(const fem::Mesh<dim>& mesh, int element, const typename Cosserat<dim>::Place& place) {
+  const auto sides = static_cast<int>(mesh.elements[static_cast<std::size_t>(element)].type->sides.size());
+  for (int k = 0; k < sides; ++k) {
+    const OutlineSide<dim> side = side_at(mesh, {element, k});
+    if (side.normal.dot(place - side.centre) > 0.0) return false;
   }
   return true;
 }
 
 /// An element that holds a place with ground on all sides of it, also where it lies between elements; -1: there is no such one.
-int element_around(const fem::Mesh<2>& mesh, const Eigen::Vector2d& place, double size) {
+template <int dim>
+int element_around(const fem::Mesh<dim>& mesh, const typename Cosserat<dim>::Place& place, double size) {
   constexpr double kBeside = 1e-6;
   int found = -1;
-  for (const double x : {-kBeside, kBeside})
-    for (const double y : {-1.1 * kBeside, 1.1 * kBeside}) {
-      const Eigen::Vector2d here = place + size * Eigen::Vector2d(x, y);
-      const auto at = std::ranges::find_if(
-          mesh.elements, [&](const fem::Element<2>& element) { return holds(mesh, element, here); });
-      if (at == mesh.elements.end()) return -1;
-      found = static_cast<int>(at - mesh.elements.begin());
-    }
+  for (int corner = 0; corner < 1 << dim; ++corner) {
+    typename Cosserat<dim>::Place here = place;
+    for (int i = 0; i < dim; ++i)
+      here(i) += ((corner >> i & 1) != 0 ? 1.0 : -1.0) * (1.0 + 0.1 * i) * kBeside * size;
+    found = -1;
+    for (int e = 0; found < 0 && e < static_cast<int>(mesh.elements.size()); ++e)
+      if (holds(mesh, e, here)) found = e;
+    if (found < 0) return -1;
+  }
   return found;
 }
 
 /// A far end that nothing moves, in the midst of ground that does.
-void look_at_anchor(const Scene& scene, const std::string& name, Remarks& remarks) {
+template <int dim>
+void look_at_anchor(const Scene& scene, const fem::Mesh<dim>& mesh, const std::string& name,
+                    Remarks& remarks) {
   const Entry* const to = scene.find({"anchors", name, "to"});
-  if (to == nullptr || to->items.size() != 2) return;
-  Eigen::Vector2d place;
-  for (int i = 0; i < 2; ++i) {
+  if (to == nullptr || to->items.size() != dim) return;
+  typename Cosserat<dim>::Place place;
+  for (int i = 0; i < dim; ++i) {
     const auto value =
         coupler::parse_quantity(to->items[static_cast<std::size_t>(i)].text, Dimension::length);
     if (!value) return;
     place(i) = *value;
   }
-  const int element = element_around(scene.mesh(), place, scene.body().smaller_side());
+  const int element = element_around(mesh, place, scene.body().smaller_side());
   if (element < 0) return;
   remarks.push_back(
       {Rank::doubtful, 2.0,
        to->fault(fmt::format(
-           "anchors: '{}': its far end ({:.4g}, {:.4g}) m lies within region '{}' and is fixed there: it does not move "
+           "anchors: '{}': its far end ({:.4g}) m lies within region '{}' and is fixed there: it does not move "
            "with the ground",
-           name, place.x(), place.y(), scene.region_of(element).name)),
+           name, fmt::join(place, ", "), scene.region_of(element).name)),
        "name a node of the ground, to: NAME; or put the end beyond the mesh"});
 }
 
-}  // namespace
-
-void structures(const Scene& scene, Remarks& remarks) {
+template <int dim>
+void look_at_structures(const Scene& scene, const fem::Mesh<dim>& mesh, Remarks& remarks) {
   const auto visit = [&](const char* key, auto look) {
     if (const Entry* const list = scene.find({key}))
       for (const Entry::Member& member : list->members) look(member);
   };
   visit("interfaces", [&](const Entry::Member& member) {
     const Entry* const on = member.value.find("on");
-    if (on != nullptr && on->kind == Entry::Kind::scalar && scene.mesh().has_nodes_on(on->text))
-      look_at_interface(scene, member.key, beside(scene, on->text), remarks);
+    if (on != nullptr && on->kind == Entry::Kind::scalar && mesh.has_nodes_on(on->text))
+      look_at_interface(scene, member.key, beside(scene, mesh, on->text), remarks);
   });
   visit("beams", [&](const Entry::Member& member) { look_at_beam(scene, member.key, remarks); });
-  visit("anchors", [&](const Entry::Member& member) { look_at_anchor(scene, member.key, remarks); });
+  visit("anchors", [&](const Entry::Member& member) { look_at_anchor(scene, mesh, member.key, remarks); });
+}
+
+}  // namespace
+
+void structures(const Scene& scene, Remarks& remarks) {
+  scene.with_problem([&](const auto& problem) { look_at_structures(scene, problem.mesh, remarks); });
 }
 
 }  // namespace polargrain::app
