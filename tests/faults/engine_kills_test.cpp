@@ -18,7 +18,7 @@ TEST(EngineKillsTest, AHundredKilledWorkersChangeNothingInTheDemo) {
   const Outcome quiet = run_in(scratch.path(), command + "quiet");
   ASSERT_EQ(quiet.status, 0) << quiet.errors;
   Beside run("env -C '" + scratch.path().string() + "' " + command + "disturbed");
-  const int kills = kill_workers(run, scratch.path() / "disturbed/history.csv", 100, 0.35, 20250103);
+  const int kills = kill_workers(run, scratch.path() / "disturbed/history.csv", 100, 0.35, 20250103).sent;
   EXPECT_EQ(run.wait(), 0);
   EXPECT_EQ(kills, 100);
   EXPECT_EQ(content(scratch.path() / "disturbed/history.csv"), content(scratch.path() / "quiet/history.csv"));

@@ -97,25 +97,33 @@ class Pace {
   double row_ = 0.01;  ///< s
 };
 
+struct WorkerKills {
+  int sent = 0;
+  int before_last_step = 0;  ///< of these, with a whole step to go: the run must have noticed them
+};
+
 /// Kills children of a run, picked at random, each but once, at random moments behind every so many of its steps, until it has killed
-/// so many or the run has ended. @returns how many
-inline int kill_workers(Beside& run, const std::filesystem::path& history, int kills, double steps_between,
-                        std::uint64_t seed) {
+/// so many or the run has ended.
+/// @param rows that the table has at the end; 0: not known
+inline WorkerKills kill_workers(Beside& run, const std::filesystem::path& history, int kills,
+                                double steps_between, std::uint64_t seed, long rows = 0) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> share(0.0, std::min(1.0, steps_between));
   Pace pace(run, history);
   std::set<pid_t> hit;  // one that is dead stays in the list until its parent has noticed
-  int sent = 0;
-  while (sent < kills && pace.await(2 + static_cast<long>(steps_between * sent))) {
+  WorkerKills done;
+  while (done.sent < kills && pace.await(2 + static_cast<long>(steps_between * done.sent))) {
     pace.sleep_for_rows(share(generator));
     std::vector<pid_t> workers = children_of(run.id());
     std::erase_if(workers, [&](pid_t worker) { return hit.contains(worker); });
     if (workers.empty()) continue;
     const pid_t worker = workers[generator() % workers.size()];
     hit.insert(worker);
-    sent += kill(worker, SIGKILL) == 0;
+    if (kill(worker, SIGKILL) != 0) continue;
+    ++done.sent;
+    if (rows_of(history) + 1 < rows) ++done.before_last_step;
   }
-  return sent;
+  return done;
 }
 
 }  // namespace polargrain::testing

@@ -93,7 +93,7 @@ TEST_F(CosseratRunsTest, WorkersKillsAndResumptionsChangeNoByte) {
     const std::string expected = results_of(scratch_.path() / ("one" + name));
     RunningProgram disturbed(scratch_.path(), run + " -w 2 -o two" + name);
     const int kills =
-        kill_workers(disturbed, scratch_.path() / ("two" + name) / "history.csv", 3, 1.0, 20260103);
+        kill_workers(disturbed, scratch_.path() / ("two" + name) / "history.csv", 3, 1.0, 20260103).sent;
     EXPECT_EQ(disturbed.wait(), 0) << content(scratch_.path() / "program.out");
     EXPECT_TRUE(results_of(scratch_.path() / ("two" + name)) == expected) << model;
     const auto check = [&](int status, const std::filesystem::path& result) {

@@ -63,7 +63,8 @@ TEST_F(ExplicitRunTest, WorkersKillsAndResumptionsChangeNoByte) {
     ASSERT_EQ(run("one", options + " -w 1").status, 0) << material;
     const std::string expected = results_of(scratch_.path() / "one");
     RunningProgram disturbed(scratch_.path(), "run case.yaml " + options + " -w 3 -o three");
-    const int kills = kill_workers(disturbed, scratch_.path() / "three" / "history.csv", 3, 1.0, 20261124);
+    const int kills =
+        kill_workers(disturbed, scratch_.path() / "three" / "history.csv", 3, 1.0, 20261124).sent;
     EXPECT_EQ(disturbed.wait(), 0) << content(scratch_.path() / "program.out");
     EXPECT_TRUE(results_of(scratch_.path() / "three") == expected) << material;
     std::cout << "[figure] " << material << ": " << kills << " workers killed\n";
