@@ -144,7 +144,7 @@ guest "$program"; key=other guest "$program"
 await revoked "step 3"
 cp keys/workers.allowed all.allowed
 public=$(awk '/^public/ {print $2}' keys/other.key)
-grep -vF "$public" all.allowed > keys/workers.allowed   # from the next run on
+grep -vF -e "$public" all.allowed > keys/workers.allowed   # from the next run on
 wait $coordinator; same revoked
 more="-w 0 --listen $url --keys keys" run revoked-next "$program"
 key=other guest "$program"
