@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/weight_at_start.hpp"
 #include "fem/water/pore_water.hpp"
 
 namespace polargrain::app {
@@ -154,17 +155,6 @@ void look_at_components(const Entry& item, Remarks& remarks) {
          stress->fault(
              "initial_stress: s33 is zero: the body is in plane strain, and a stress normal to the plane belongs to it; a law with friction yields without it"),
          fmt::format("give s33, for example {:.4g} kPa", 0.5e-3 * (s[0] + s[1]))});
-}
-
-/// Weight of a region at time zero, downwards positive, N/m^3.
-double weight_at_start(const Scene& scene, const std::string& region) {
-  return scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
-    double weight = 0.0;
-    for (const fem::BodyLoad<dim>& load : problem.body_loads)
-      if (load.region.empty() || load.region == region)
-        weight -= load.factor.at(0.0) * load.density(problem.mesh.nodes.front())(dim - 1);
-    return weight;
-  });
 }
 
 /// The weight that the stress grows by with depth against that of the body: they balance each other.

@@ -7,19 +7,10 @@
 
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "app/remarks/weight_at_start.hpp"
 
 namespace polargrain::app {
 namespace {
-
-/// Downwards at time zero, N/m3.
-template <int dim>
-double weight_on(const fem::Problem<dim>& problem, const SceneRegion& region) {
-  double weight = 0.0;
-  for (const fem::BodyLoad<dim>& load : problem.body_loads)
-    if (load.region.empty() || load.region == region.name)
-      weight -= load.factor.at(0.0) * load.density(problem.mesh.nodes.front())(dim - 1);
-  return weight;
-}
 
 template <int dim>
 void look_at_weight_at_once(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
@@ -30,7 +21,7 @@ void look_at_weight_at_once(const Scene& scene, const fem::Problem<dim>& problem
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell != nullptr || region.comes_later || region.elements.empty() || !is_strong(scene, region))
       continue;
-    const double weight = weight_on(problem, region);
+    const double weight = weight_at_start(scene, region.name);
     const int node = problem.mesh.elements[static_cast<std::size_t>(region.elements.front())].nodes.front();
     if (weight <= 0.0 ||
         scene.initial_stress<dim>(region, problem.mesh.nodes[static_cast<std::size_t>(node)]).has_value())
