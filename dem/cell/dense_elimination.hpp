@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "dem/sphere_loop/instruction_set.hpp"
+#include "dem/lanes/instruction_set.hpp"
 
 namespace polargrain::dem {
 

@@ -18,7 +18,7 @@ template <>
 struct FastLoop<2> {
   using Grains = DiscBox;
   static constexpr const char* name = "the loop over discs";
-  static constexpr std::string_view instructions() { return {}; }
+  static std::string_view instructions() { return name_of(best_instruction_set()); }
   static DiscSelection selection(LAMMPS_NS::LAMMPS& lammps) { return disc_combination(lammps); }
   static std::unique_ptr<DiscBox> make(Driver<2>& driver, const DiscCombination& combination, bool plain) {
     DiscBox::Definition discs = disc_definition(driver.lammps(), combination, driver.depth());

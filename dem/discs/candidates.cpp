@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dem/box/lost_grains.hpp"
+#include "dem/discs/disc_pass.hpp"
 
 namespace polargrain::dem {
 
@@ -94,9 +95,9 @@ class BinsOfDiscs {
   std::vector<Member> members_;
 };
 
-std::uint16_t image_number(std::vector<LatticeVector>& images, const LatticeVector& wanted) {
+int image_number(std::vector<LatticeVector>& images, const LatticeVector& wanted) {
   const auto found = std::find(images.begin(), images.end(), wanted);
-  const auto number = static_cast<std::uint16_t>(found - images.begin());
+  const auto number = static_cast<int>(found - images.begin());
   if (found == images.end()) images.push_back(wanted);
   return number;
 }
@@ -113,51 +114,89 @@ LatticeVector copy_at(const Eigen::Matrix2d& inverse, double x, double y) {
   return {copy_of(inverse(0, 0) * x + inverse(0, 1) * y), copy_of(inverse(1, 0) * x + inverse(1, 1) * y)};
 }
 
+void CandidateList::clear() {
+  rows.assign(1, 0);
+  images.assign(1, LatticeVector{});
+  for (LineVector<int>* const numbers : {&first, &second, &image, &kind}) numbers->clear();
+  for (LineVector<double>* const numbers : {&radius_first, &radius_second, &harmonic}) numbers->clear();
+  continues.clear();
+  for (LineVector<double>& values : springs) values.clear();
+}
+
+bool CandidateList::is_stressed(int candidate) const {
+  for (int k = 0; k < spring_count; ++k)
+    if (springs[k][candidate] != 0.0) return true;
+  return false;
+}
+
 void CandidateList::find(std::span<const Disc> discs, std::span<const int> types, int kinds,
                          const Eigen::Matrix2d& base, double skin) {
   double largest = 0.0;
   for (const Disc& disc : discs) largest = std::max(largest, disc.radius);
   const BinsOfDiscs bins(discs, base, 2.0 * largest + skin);
-  rows.assign(1, 0);
-  pairs.clear();
-  images.assign(1, LatticeVector{});
+  clear();
   for (std::size_t i = 0; i < discs.size(); ++i) {
-    const Disc& first = discs[i];
+    const Disc& disc = discs[i];
     const LatticeVector& home = bins.places[i].copy;
-    const double x = first.x - (base(0, 0) * home.p + base(0, 1) * home.q);
-    const double y = first.y - (base(1, 0) * home.p + base(1, 1) * home.q);
+    const double x = disc.x - (base(0, 0) * home.p + base(0, 1) * home.q);
+    const double y = disc.y - (base(1, 0) * home.p + base(1, 1) * home.q);
     bins.around(bins.places[i], [&](std::span<const Member> members, const LatticeVector& copy) {
       const double shift_x = base(0, 0) * copy.p + base(0, 1) * copy.q;
       const double shift_y = base(1, 0) * copy.p + base(1, 1) * copy.q;
-      for (const Member& second : members) {
-        if (second.disc < static_cast<std::int32_t>(i)) continue;
-        const double dx = x - second.x - shift_x;
-        const double dy = y - second.y - shift_y;
-        const double sum = first.radius + second.radius;
+      for (const Member& other : members) {
+        if (other.disc < static_cast<std::int32_t>(i)) continue;
+        const double dx = x - other.x - shift_x;
+        const double dy = y - other.y - shift_y;
+        const double sum = disc.radius + other.radius;
         if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
-        const std::int32_t j = second.disc;
+        const std::int32_t j = other.disc;
         const LatticeVector& away = bins.places[j].copy;
-        const LatticeVector image{copy.p + home.p - away.p, copy.q + home.q - away.q};
-        if (!counts(static_cast<std::int32_t>(i), j, image)) continue;
-        pairs.push_back({j, image_number(images, image),
-                         static_cast<std::uint16_t>(types[i] * kinds + types[j]),
-                         first.radius * second.radius / sum});
+        const LatticeVector lattice{copy.p + home.p - away.p, copy.q + home.q - away.q};
+        if (!counts(static_cast<std::int32_t>(i), j, lattice)) continue;
+        continues.push_back(static_cast<std::int32_t>(second.size()) > rows.back() ? -1 : 0);
+        first.push_back(static_cast<int>(i));
+        second.push_back(j);
+        image.push_back(image_number(images, lattice));
+        kind.push_back(types[i] * kinds + types[j]);
+        radius_first.push_back(disc.radius);
+        radius_second.push_back(other.radius);
+        harmonic.push_back(disc.radius * other.radius / sum);
       }
     });
-    rows.push_back(static_cast<std::int32_t>(pairs.size()));
+    rows.push_back(static_cast<std::int32_t>(second.size()));
   }
-  values.assign(pairs.size() * static_cast<std::size_t>(springs), 0.0);
+  while (second.size() % kDiscBlock != 0) {
+    continues.push_back(-1);
+    first.push_back(first.back());
+    second.push_back(first.back());
+    image.push_back(static_cast<int>(images.size()));
+    kind.push_back(kind.back());
+    radius_first.push_back(radius_first.back());
+    radius_second.push_back(radius_first.back());
+    harmonic.push_back(harmonic.back());
+  }
+  for (LineVector<double>& values : springs) values.assign(second.size(), 0.0);
+  row_sums.assign(discs.size(), DiscForce{});
+}
+
+void CandidateList::add(int one, int other, const LatticeVector& lattice, const double* values) {
+  close_rows(static_cast<std::size_t>(one));
+  first.push_back(one);
+  second.push_back(other);
+  image.push_back(image_number(images, lattice));
+  for (int k = 0; k < spring_count; ++k) springs[k].push_back(values[k]);
+}
+
+void CandidateList::close_rows(std::size_t discs) {
+  while (rows.size() <= discs) rows.push_back(static_cast<std::int32_t>(second.size()));
 }
 
 void CandidateList::take_springs(const CandidateList& other) {
   for (std::size_t i = 0; i + 1 < rows.size(); ++i)
     for (std::int32_t c = rows[i]; c < rows[i + 1]; ++c)
       for (std::int32_t o = other.rows[i]; o < other.rows[i + 1]; ++o) {
-        if (other.pairs[o].second != pairs[c].second ||
-            !(other.images[other.pairs[o].image] == images[pairs[c].image]))
-          continue;
-        std::copy_n(&other.values[static_cast<std::size_t>(o) * springs], springs,
-                    &values[static_cast<std::size_t>(c) * springs]);
+        if (other.second[o] != second[c] || !(other.images[other.image[o]] == images[image[c]])) continue;
+        for (int k = 0; k < spring_count; ++k) springs[k][c] = other.springs[k][o];
         break;
       }
 }

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "dem/discs/disc.hpp"
+#include "dem/discs/law_settings.hpp"
+#include "dem/lanes/line_vector.hpp"
 
 namespace polargrain::dem {
-
-/// Two discs that may touch before the list is made anew: the disc of the row and this one, seen at
-/// `images[image]`.
-struct Candidate {
-  std::int32_t second = 0;
-  std::uint16_t image = 0;  ///< place in CandidateList::images
-  std::uint16_t kind = 0;   ///< place in the table of parameters by pair of types
-  double harmonic = 0.0;    ///< r_1 r_2 / (r_1 + r_2), m
-};
 
 /// Which copy of the box a place lies in. @param inverse of the base vectors, 1/m
 /// @throws RunError when it is so far away, or nowhere, that this cannot be told: the grains are lost
@@ -26,12 +20,19 @@ LatticeVector copy_at(const Eigen::Matrix2d& inverse, double x, double y);
 /// with the lower number. The order depends on the positions alone.
 struct CandidateList {
   std::vector<std::int32_t> rows;  ///< candidates of disc i: rows[i] to rows[i + 1]
-  std::vector<Candidate> pairs;
-  std::vector<LatticeVector> images;  ///< that occur; the first one is (0, 0)
-  int springs = 0;                    ///< values a pair
-  std::vector<double> values;         ///< springs of the contacts, `springs` a pair; zero without contact
+  LineVector<int> first, second;   ///< the discs of each candidate, the second one seen at
+  LineVector<int> image;           ///< this place in `images`
+  LineVector<int> kind;            ///< place in the table of parameters by pair of types
+  LineVector<double> radius_first, radius_second, harmonic;  ///< of the discs, and r_1 r_2 / (r_1 + r_2), m
+  LineVector<long long>
+      continues;  ///< all bits set where the candidate before has the same first disc, else zero
+  std::vector<LatticeVector> images;                     ///< that occur; the first one is (0, 0)
+  int spring_count = 0;                                  ///< of the springs of a contact that are in use
+  std::array<LineVector<double>, kDiscSprings> springs;  ///< of the contacts; zero without contact
+  LineVector<DiscForce> row_sums;                        ///< of the discs, for the pass over the contacts
 
-  /// Finds the pairs.
+  /// Finds the pairs, and fills up whole blocks (DiscPass) behind the last row with pairs at an image of their own, the
+  /// one behind `images`; springs are zero.
   /// @param types of the discs, from 0; @param kinds types there are
   /// @param base columns are the base vectors of the box, m; @param skin largest gap taken, m
   /// @throws RunError as copy_at
@@ -39,6 +40,13 @@ struct CandidateList {
             double skin);
   /// Takes over the springs of the pairs that another list has too.
   void take_springs(const CandidateList& other);
+  /// Empties the list. Pairs with springs may then be added in the order of their rows, and the rows of all discs be
+  /// closed: for lists that only hand springs over.
+  void clear();
+  void add(int first, int second, const LatticeVector& image, const double* springs);
+  void close_rows(std::size_t discs);
+  /// Whether any spring of a candidate is not zero.
+  [[nodiscard]] bool is_stressed(int candidate) const;
 };
 
 }  // namespace polargrain::dem

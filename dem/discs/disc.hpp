@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+// Kernels of several instruction sets include this file: no code of the standard library (dem/lanes/vectors.hpp).
 #include <cstdint>
 
 namespace polargrain::dem {
@@ -27,6 +28,12 @@ struct alignas(32) DiscMotion {
   double ax = 0.0, ay = 0.0;  ///< m/s^2
   double angular = 0.0;       ///< rad/s^2
   double turned = 0.0;        ///< rotation in the laboratory since the packing, rad
+};
+
+/// A lattice vector of the box as it is now: where an image lies and how fast it moves.
+struct alignas(32) MovingImage {
+  double x = 0.0, y = 0.0;    ///< m
+  double vx = 0.0, vy = 0.0;  ///< m/s
 };
 
 /// A lattice vector p b_1 + q b_2 of the periodic box.

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "dem/discs/laws.hpp"
 
 namespace polargrain::dem {
 
@@ -27,6 +26,20 @@ double least_stretch(const Eigen::Matrix2d& f) {
   return std::sqrt(std::max(0.0, mean - root));
 }
 
+DiscKernels::Pass pass_of(const DiscKernels& kernels, const DiscCombination& laws) {
+  const LawSettings& on = laws.settings;
+  const bool bare = !on.damped && !on.limit_force && !on.rolling_force && !on.rolling_damped;
+  return kernels.pass[static_cast<int>(laws.normal)][static_cast<int>(laws.tangential)]
+                     [static_cast<int>(laws.rolling)][bare ? 1 : 0];
+}
+
+void put_rows(double* four, const Eigen::Matrix2d& matrix) {
+  four[0] = matrix(0, 0);
+  four[1] = matrix(0, 1);
+  four[2] = matrix(1, 0);
+  four[3] = matrix(1, 1);
+}
+
 LatticeVector image_of(const Snapshot<2>::Springs& contact) {
   return {contact.image[0], contact.image[1]};
 }
@@ -35,8 +48,9 @@ LatticeVector image_of(const Snapshot<2>::Springs& contact) {
 
 DiscBox::DiscBox(Definition definition)
     : definition_(std::move(definition)),
-      loop_(definition_.plain ? make_plain_contact_loop(definition_.combination)
-                              : make_contact_loop(definition_.combination)) {
+      plain_loop_(definition_.combination),
+      kernels_(disc_kernels(definition_.instructions)),
+      pass_(pass_of(kernels_, definition_.combination)) {
   const std::size_t count = definition_.radii.size();
   discs_.resize(count);
   forces_.resize(count);
@@ -53,7 +67,7 @@ DiscBox::DiscBox(Definition definition)
     discs_[k].inverse_inertia = 2.0 / (definition_.masses[k] * radius * radius);  // disc
   }
   skin_ = kDiscSkin * mean;
-  list_.springs = former_.springs = spring_count(definition_.combination.rolling);
+  list_.spring_count = former_.spring_count = spring_count(definition_.combination.rolling);
   contacts_.reserve(3 * count);
 }
 
@@ -63,7 +77,7 @@ void DiscBox::restore(const State& state) {
 
 void DiscBox::restore(const Snapshot<2>& snapshot) {
   if (snapshot.grains.size() != discs_.size() || snapshot.code != definition_.combination.code() ||
-      snapshot.springs != list_.springs)
+      snapshot.springs != list_.spring_count)
     throw RunError("this state belongs to a cell of another packing or another input script");
   if (const std::string fault = snapshot_fault(snapshot, definition_.radii, definition_.time_step);
       !fault.empty())
@@ -80,19 +94,13 @@ void DiscBox::restore(const Snapshot<2>& snapshot) {
   }
   motion_ = BoxMotion<2>(BoxPath<2>(snapshot.box), std::nullopt, definition_.time_step);
   // The springs wait in the form of a list for the one that is made next.
-  former_.images.assign(1, LatticeVector{});
-  former_.rows.assign(1, 0);
-  former_.pairs.clear();
-  for (const Snapshot<2>::Springs& contact : snapshot.contacts) {
-    while (static_cast<std::int32_t>(former_.rows.size()) <= contact.first)
-      former_.rows.push_back(static_cast<std::int32_t>(former_.pairs.size()));
-    auto image = std::find(former_.images.begin(), former_.images.end(), image_of(contact));
-    if (image == former_.images.end()) image = former_.images.insert(image, image_of(contact));
-    former_.pairs.push_back(
-        {contact.second, static_cast<std::uint16_t>(image - former_.images.begin()), 0, 0.0});
+  former_.clear();
+  for (std::size_t c = 0; c < snapshot.contacts.size(); ++c) {
+    const Snapshot<2>::Springs& contact = snapshot.contacts[c];
+    former_.add(contact.first, contact.second, image_of(contact),
+                &snapshot.values[c * static_cast<std::size_t>(snapshot.springs)]);
   }
-  former_.rows.resize(discs_.size() + 1, static_cast<std::int32_t>(former_.pairs.size()));
-  former_.values = snapshot.values;
+  former_.close_rows(discs_.size());
   find_candidates();
 }
 
@@ -118,7 +126,7 @@ StatePointer DiscBox::save() {
   Snapshot<2> snapshot;
   snapshot.box = box.reduced();
   snapshot.code = definition_.combination.code();
-  snapshot.springs = list_.springs;
+  snapshot.springs = list_.spring_count;
   // b_2 of the reduced box is b_2 + fold b_1.
   const auto fold =
       static_cast<std::int32_t>(std::lround((snapshot.box.base(0, 1) - box.base(0, 1)) / box.base(0, 0)));
@@ -137,17 +145,16 @@ StatePointer DiscBox::save() {
   }
   for (std::size_t i = 0; i < discs_.size(); ++i)
     for (std::int32_t c = list_.rows[i]; c < list_.rows[i + 1]; ++c) {
-      const double* const values = &list_.values[static_cast<std::size_t>(c) * list_.springs];
-      if (std::all_of(values, values + list_.springs, [](double value) { return value == 0.0; })) continue;
-      const Candidate& pair = list_.pairs[c];
-      const LatticeVector& old = list_.images[pair.image];
-      const LatticeVector& away = copies[pair.second];
+      if (!list_.is_stressed(c)) continue;
+      const int second = list_.second[c];
+      const LatticeVector& old = list_.images[list_.image[c]];
+      const LatticeVector& away = copies[second];
       // p b_1 + q b_2 = (p - q fold) b_1 + q (b_2 + fold b_1)
       snapshot.contacts.push_back(
           {static_cast<std::int32_t>(i),
-           pair.second,
+           second,
            {{old.p - old.q * fold + away.p - copies[i].p, old.q + away.q - copies[i].q}}});
-      snapshot.values.insert(snapshot.values.end(), values, values + list_.springs);
+      for (int k = 0; k < list_.spring_count; ++k) snapshot.values.push_back(list_.springs[k][c]);
     }
   // An answer must be a state to go on from.
   if (const std::string fault = snapshot_fault(snapshot, definition_.radii, definition_.time_step);
@@ -163,7 +170,8 @@ void DiscBox::find_candidates() {
   listed_inverse_ = base.inverse();
   wandered_ = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
-  images_.resize(list_.images.size());
+  images_.resize(list_.images.size() + 1);
+  images_.back().x = 10.0 * largest_radius_;  // of pairs that never touch
   place_images();
 }
 
@@ -185,7 +193,7 @@ bool DiscBox::outgrown() {
 void DiscBox::place_images() {
   const Eigen::Matrix2d base = motion_.box().base;
   const Eigen::Matrix2d& rate = motion_.rate();
-  for (std::size_t k = 0; k < images_.size(); ++k) {
+  for (std::size_t k = 0; k < list_.images.size(); ++k) {
     const LatticeVector& image = list_.images[k];
     images_[k] = {base(0, 0) * image.p + base(0, 1) * image.q, base(1, 0) * image.p + base(1, 1) * image.q,
                   rate(0, 0) * image.p + rate(0, 1) * image.q, rate(1, 0) * image.p + rate(1, 1) * image.q};
@@ -206,14 +214,36 @@ void DiscBox::go_on(const BoxPath<2>& path, double damping_rate, const Loading& 
 }
 
 void DiscBox::compute_forces(bool advance, bool record) {
-  const ContactLoop::Scene scene{discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step,
-                                 advance};
-  if (!record) {
-    loop_->add_forces(scene, list_, forces_);
+  if (record || definition_.plain) {
+    contacts_.clear();
+    plain_loop_.add_forces(
+        {discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step, advance}, list_,
+        forces_, contacts_);
     return;
   }
-  contacts_.clear();
-  loop_->record_forces(scene, list_, forces_, contacts_);
+  DiscPass pass{};
+  pass.discs = discs_.data();
+  pass.images = images_.data();
+  pass.forces = forces_.data();
+  pass.row_sums = list_.row_sums.data();
+  pass.first = list_.first.data();
+  pass.second = list_.second.data();
+  pass.image = list_.image.data();
+  pass.kind = definition_.combination.types > 1 ? list_.kind.data() : nullptr;
+  pass.continues = list_.continues.data();
+  pass.radius_first = list_.radius_first.data();
+  pass.radius_second = list_.radius_second.data();
+  pass.harmonic = list_.harmonic.data();
+  for (int k = 0; k < kDiscSprings; ++k) pass.springs[k] = list_.springs[k].data();
+  pass.parameters = definition_.combination.pairs.data();
+  pass.settings = definition_.combination.settings;
+  pass.candidates = static_cast<int>(list_.second.size());
+  pass.count = static_cast<int>(discs_.size());
+  pass.step = definition_.time_step;
+  const Eigen::RowVector2d bend = motion_.curvature_rate();
+  pass.bend_x = bend.x();
+  pass.bend_y = bend.y();
+  pass_(pass);
 }
 
 void DiscBox::set_up() {
@@ -257,89 +287,27 @@ void DiscBox::control_rotation(bool damped) {
   for (std::size_t k = 0; k < discs_.size(); ++k) forces_[k].torque += torque * weights_[k];
 }
 
-namespace {
-
-/// Second half of a step of one disc: damping against the affine flow, half a kick.
-struct Ending {
-  double half, rate;                                ///< half a time step, s; damping rate, 1/s
-  double flow_xx, flow_xy, flow_yx, flow_yy, spin;  ///< affine, 1/s
-
-  Ending(const BoxMotion<2>& box, double step, double damping_rate)
-      : half(0.5 * step),
-        rate(damping_rate),
-        flow_xx(box.gradient()(0, 0)),
-        flow_xy(box.gradient()(0, 1)),
-        flow_yx(box.gradient()(1, 0)),
-        flow_yy(box.gradient()(1, 1)),
-        spin(box.spin()(0)) {}
-
-  void apply(Disc& disc, const DiscForce& force, DiscMotion& motion) const {
-    motion.ax = force.x * disc.inverse_mass - rate * (disc.vx - (flow_xx * disc.x + flow_xy * disc.y));
-    motion.ay = force.y * disc.inverse_mass - rate * (disc.vy - (flow_yx * disc.x + flow_yy * disc.y));
-    motion.angular = force.torque * disc.inverse_inertia - rate * (disc.spin - spin);
-    disc.vx += half * motion.ax;
-    disc.vy += half * motion.ay;
-    disc.spin += half * motion.angular;
-  }
-};
-
-/// First half of a step of one disc: velocities that the box adds, half a kick, drift.
-struct Beginning {
-  double step, half;                                  ///< s
-  double change_xx, change_xy, change_yx, change_yy;  ///< of the affine velocity gradient, 1/s
-  double flow_xx, flow_xy, flow_yx, flow_yy;          ///< affine, 1/s
-  double change_of_spin, turn;                        ///< rad/s, rad
-
-  Beginning(const BoxMotion<2>& box, double time_step) : step(time_step), half(0.5 * time_step) {
-    const Eigen::Matrix2d change = box.change_of_gradient();
-    const Eigen::Matrix2d flow = box.gradient_before();
-    change_xx = change(0, 0);
-    change_xy = change(0, 1);
-    change_yx = change(1, 0);
-    change_yy = change(1, 1);
-    flow_xx = flow(0, 0);
-    flow_xy = flow(0, 1);
-    flow_yx = flow(1, 0);
-    flow_yy = flow(1, 1);
-    change_of_spin = box.change_of_spin()(0);
-    turn = box.turn()(0);
-  }
-
-  /// @returns square of the speed against the affine flow
-  double apply(Disc& disc, DiscMotion& motion) const {
-    disc.vx += change_xx * disc.x + change_xy * disc.y;
-    disc.vy += change_yx * disc.x + change_yy * disc.y;
-    disc.spin += change_of_spin;
-    disc.vx += half * motion.ax;
-    disc.vy += half * motion.ay;
-    disc.spin += half * motion.angular;
-    const double ux = disc.vx - (flow_xx * disc.x + flow_xy * disc.y);
-    const double uy = disc.vy - (flow_yx * disc.x + flow_yy * disc.y);
-    disc.x += step * disc.vx;
-    disc.y += step * disc.vy;
-    motion.turned += step * disc.spin + turn;
-    return ux * ux + uy * uy;
-  }
-};
-
-}  // namespace
-
-void DiscBox::begin_step(bool end_the_last) {
-  const Ending ending(motion_, definition_.time_step, damping_rate_);
-  motion_.advance();
-  const Beginning beginning(motion_, definition_.time_step);
-  double fastest = 0.0;
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    if (end_the_last) ending.apply(discs_[k], forces_[k], motions_[k]);
-    fastest = std::max(fastest, beginning.apply(discs_[k], motions_[k]));
-    forces_[k] = DiscForce{};
-  }
-  wandered_ += definition_.time_step * std::sqrt(fastest);
+DiscMotionPass DiscBox::motion_pass() {
+  DiscMotionPass pass{};
+  pass.discs = discs_.data();
+  pass.forces = forces_.data();
+  pass.motions = motions_.data();
+  pass.count = static_cast<int>(discs_.size());
+  pass.step = definition_.time_step;
+  pass.damping_rate = damping_rate_;
+  put_rows(pass.gradient, motion_.gradient());
+  pass.spin = motion_.spin()(0);
+  return pass;
 }
 
-void DiscBox::end_step() {
-  const Ending ending(motion_, definition_.time_step, damping_rate_);
-  for (std::size_t k = 0; k < discs_.size(); ++k) ending.apply(discs_[k], forces_[k], motions_[k]);
+void DiscBox::begin_step(bool end_the_last) {
+  DiscMotionPass pass = motion_pass();
+  motion_.advance();
+  put_rows(pass.change, motion_.change_of_gradient());
+  pass.change_of_spin = motion_.change_of_spin()(0);
+  put_rows(pass.flow, motion_.gradient_before());
+  pass.turn = motion_.turn()(0);
+  wandered_ += definition_.time_step * std::sqrt(kernels_.begin_step(pass, end_the_last));
 }
 
 void DiscBox::run(int steps) {
@@ -355,7 +323,7 @@ void DiscBox::run(int steps) {
     if (controlled()) control_rotation(damping_rate_ > 0.0);
     if (progress && done % kDiscProgressChunk == 0) progress();
   }
-  if (steps > 0) end_step();
+  if (steps > 0) kernels_.end_step(motion_pass());
 }
 
 Imbalance DiscBox::imbalance() const {

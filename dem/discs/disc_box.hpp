@@ -5,13 +5,18 @@
 
 #include "dem/box/grain_box.hpp"
 #include "dem/box/snapshot.hpp"
-#include "dem/discs/contact_loop.hpp"
+#include "dem/discs/disc_pass.hpp"
+#include "dem/discs/plain_contact_loop.hpp"
+#include "dem/lanes/instruction_set.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
 }
 
 namespace polargrain::dem {
+
+/// Kernels compiled for an instruction set.
+const DiscKernels& disc_kernels(InstructionSet set);
 
 /// A box of discs that is stepped without the engine's lists, ghosts and passes: the same velocity Verlet,
 /// the same box motion, damping and control of rotations as `fix cell/strain` with `fix nve/sphere`, in two
@@ -27,6 +32,7 @@ class DiscBox final : public GrainBox<2> {
     double thickness = 0.0;      ///< of the box, m
     double time_step = 0.0;      ///< s
     bool plain = false;          ///< run the plain twin of the loop over contacts
+    InstructionSet instructions = best_instruction_set();
   };
   explicit DiscBox(Definition definition);
 
@@ -69,15 +75,17 @@ class DiscBox final : public GrainBox<2> {
   void compute_forces(bool advance, bool record);
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
+  /// The pass over the discs, with the numbers of the step that ends.
+  [[nodiscard]] DiscMotionPass motion_pass();
   /// The box goes on by a step, and the discs do its first half: the velocity change by the box, half a
   /// kick, drift. One pass over the discs does that and the second half of the step before.
   void begin_step(bool end_the_last);
-  /// Second half of a step: damping, half a kick.
-  void end_step();
   [[nodiscard]] bool controlled() const { return motion_.rotation_is_prescribed() && !weights_.empty(); }
 
   Definition definition_;
-  std::unique_ptr<ContactLoop> loop_;
+  PlainContactLoop plain_loop_;
+  const DiscKernels& kernels_;
+  DiscKernels::Pass pass_;
   double skin_ = 0.0;  ///< m
   std::vector<Disc> discs_;
   std::vector<DiscForce> forces_;

@@ -6,7 +6,7 @@
 #include "common/error.hpp"
 #include "dem/box/engine_grains.hpp"
 #include "dem/discs/disc_box.hpp"
-#include "dem/discs/laws.hpp"
+#include "dem/discs/law_settings.hpp"
 
 namespace polargrain::dem {
 

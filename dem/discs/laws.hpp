@@ -2,190 +2,253 @@
 #pragma once
 // The contact laws of docs/theory/grains.md, D.2 between discs, as numbers along the normal n (from the
 // second disc to the first, as in the engine) and the tangent t = e_3 x n. In the plane a spring of a contact
-// has one component. The engine's headers hold the same laws in space; tests hold both side by side.
-#include <cmath>
-
+// has one component. The engine's headers hold the same laws in space; tests hold both side by side. The laws are
+// written for numbers of any lanes: a plain double is one contact (dem/lanes/vectors.hpp).
 #include "dem/contact/hertz_slope.hpp"
-#include "dem/discs/combination.hpp"
+#include "dem/discs/law_settings.hpp"
+#include "dem/lanes/vectors.hpp"
 
 namespace polargrain::dem {
+namespace {
 
 /// How two discs touch and move against each other.
+template <typename Number>
 struct Touch {
-  double nx = 0.0, ny = 0.0;     ///< unit normal
-  double overlap = 0.0;          ///< m
-  double opening_rate = 0.0;     ///< v_n of the first against the second along n, m/s
-  double slip_rate = 0.0;        ///< of the first surface against the second along t, with the curvature, m/s
-  double relative_spin = 0.0;    ///< of the first against the second, with the curvature, rad/s
-  double spin_difference = 0.0;  ///< without it
-  double radius_first = 0.0, radius_second = 0.0;                    ///< m
-  double arm_first = 0.0, arm_second = 0.0;                          ///< centre to contact point, m
-  double harmonic = 0.0;                                             ///< r_1 r_2 / (r_1 + r_2), m
-  double inverse_mass_first = 0.0, inverse_mass_second = 0.0;        ///< 1/kg
-  double inverse_inertia_first = 0.0, inverse_inertia_second = 0.0;  ///< 1/(kg m^2)
+  Number nx{}, ny{};         ///< unit normal
+  Number overlap{};          ///< m
+  Number opening_rate{};     ///< v_n of the first against the second along n, m/s
+  Number slip_rate{};        ///< of the first surface against the second along t, with the curvature, m/s
+  Number relative_spin{};    ///< of the first against the second, with the curvature, rad/s
+  Number spin_difference{};  ///< without it
+  Number radius_first{}, radius_second{};                    ///< m
+  Number arm_first{}, arm_second{};                          ///< centre to contact point, m
+  Number harmonic{};                                         ///< r_1 r_2 / (r_1 + r_2), m
+  Number inverse_mass_first{}, inverse_mass_second{};        ///< 1/kg
+  Number inverse_inertia_first{}, inverse_inertia_second{};  ///< 1/(kg m^2)
 
-  [[nodiscard]] double effective_mass() const { return 1.0 / (inverse_mass_first + inverse_mass_second); }
-  [[nodiscard]] double effective_inertia() const {
+  [[nodiscard]] POLARGRAIN_INLINE Number effective_mass() const {
+    return 1.0 / (inverse_mass_first + inverse_mass_second);
+  }
+  [[nodiscard]] POLARGRAIN_INLINE Number effective_inertia() const {
     return 1.0 / (inverse_inertia_first + inverse_inertia_second);
   }
 };
 
-struct NormalAnswer {
-  double force = 0.0;               ///< on the first along n, positive when they push, N
-  double kn = 0.0, kt = 0.0;        ///< N/m
-  double slope = 1.0;               ///< d force / d overlap over kn
-  double normal_dashpot = 0.0;      ///< N s/m
-  double tangential_dashpot = 0.0;  ///< N s/m
+/// Two discs as they are about to meet.
+template <typename Number>
+struct DiscPair {
+  Number dx{}, dy{};                   ///< centre of the second to centre of the first, m
+  Number vx{}, vy{};                   ///< of the first against the second, m/s
+  Number distance{}, over_distance{};  ///< of the centres, m; one over it
+  Number spin_first{}, spin_second{};
+  Number radius_first{}, radius_second{};
+  Number harmonic{};
+  Number inverse_mass_first{}, inverse_mass_second{};
+  Number inverse_inertia_first{}, inverse_inertia_second{};
+
+  [[nodiscard]] POLARGRAIN_INLINE Number square() const { return dx * dx + dy * dy; }
+  [[nodiscard]] POLARGRAIN_INLINE auto touches() const {
+    const Number reach = radius_first + radius_second;
+    return square() < reach * reach;
+  }
+  POLARGRAIN_INLINE void measure() {
+    distance = root(square());
+    over_distance = 1.0 / distance;
+  }
 };
 
-template <NormalLaw Law>
-[[gnu::always_inline]] inline NormalAnswer normal_law(const PairParameters& p, const LawSettings& settings,
-                                                      const Touch& touch) {
-  NormalAnswer answer;
+/// Kinematics of a contact (D.1) between discs whose distance is measured. @param bend_x, bend_y rate of curvature in the frame of the box, rad/(m s)
+template <typename Number>
+POLARGRAIN_INLINE Touch<Number> touch_of(const DiscPair<Number>& pair, double bend_x, double bend_y) {
+  Touch<Number> touch;
+  touch.nx = pair.dx * pair.over_distance;
+  touch.ny = pair.dy * pair.over_distance;
+  touch.overlap = pair.radius_first + pair.radius_second - pair.distance;
+  touch.radius_first = pair.radius_first;
+  touch.radius_second = pair.radius_second;
+  touch.arm_first = pair.radius_first - 0.5 * touch.overlap;
+  touch.arm_second = pair.radius_second - 0.5 * touch.overlap;
+  touch.harmonic = pair.harmonic;
+  touch.inverse_mass_first = pair.inverse_mass_first;
+  touch.inverse_mass_second = pair.inverse_mass_second;
+  touch.inverse_inertia_first = pair.inverse_inertia_first;
+  touch.inverse_inertia_second = pair.inverse_inertia_second;
+  touch.opening_rate = pair.vx * touch.nx + pair.vy * touch.ny;
+  // Spins seen from the middle of the branch (C.8).
+  const Number bent = 0.5 * (bend_x * pair.dx + bend_y * pair.dy);
+  const Number spin_first = pair.spin_first + bent;
+  const Number spin_second = pair.spin_second - bent;
+  touch.slip_rate = pair.vy * touch.nx - pair.vx * touch.ny -
+                    (touch.arm_first * spin_first + touch.arm_second * spin_second);
+  touch.spin_difference = pair.spin_first - pair.spin_second;
+  touch.relative_spin = spin_first - spin_second;
+  return touch;
+}
+
+template <typename Number>
+struct NormalAnswer {
+  Number force{};               ///< on the first along n, positive when they push, N
+  Number kn{}, kt{};            ///< N/m
+  Number normal_dashpot{};      ///< N s/m
+  Number tangential_dashpot{};  ///< N s/m
+
+  [[nodiscard]] POLARGRAIN_INLINE Number push() const { return select(force > 0.0, force, Number{}); }
+};
+
+template <NormalLaw Law, typename Number>
+POLARGRAIN_INLINE NormalAnswer<Number> normal_law(const ParametersOf<Number>& p, const LawSettings& settings,
+                                                  const Touch<Number>& touch) {
+  NormalAnswer<Number> answer;
   if constexpr (Law == NormalLaw::hooke_radii) {
     answer.kn = p.normal * touch.harmonic;
     answer.kt = p.tangential * answer.kn;
     if (settings.damped) {
-      const double mass = touch.effective_mass();
-      answer.normal_dashpot = 2.0 * p.normal_damping * std::sqrt(answer.kn * mass);
-      answer.tangential_dashpot = 2.0 * p.tangential_damping * std::sqrt(answer.kt * mass);
+      const Number mass = touch.effective_mass();
+      answer.normal_dashpot = 2.0 * p.normal_damping * root(answer.kn * mass);
+      answer.tangential_dashpot = 2.0 * p.tangential_damping * root(answer.kt * mass);
     }
   } else if constexpr (Law == NormalLaw::hooke_stiffness) {
     answer.kn = p.normal;
     answer.kt = p.tangential;
     if (settings.damped) {
-      const double mass = settings.absolute_damping ? 1.0 : touch.effective_mass();
+      const Number mass = settings.absolute_damping ? all<Number>(1.0) : touch.effective_mass();
       answer.normal_dashpot = mass * p.normal_damping;
       answer.tangential_dashpot = mass * p.tangential_damping;
     }
   } else {
-    const double root = std::sqrt(touch.harmonic * touch.overlap);
-    answer.slope = kHertzSlope;
-    answer.kn = p.normal * root;
-    answer.kt = p.tangential * root;
+    const Number stiffening = root(touch.harmonic * touch.overlap);
+    answer.kn = p.normal * stiffening;
+    answer.kt = p.tangential * stiffening;
     if (settings.damped) {
-      const double factor = std::sqrt(root * touch.effective_mass());
+      const Number factor = root(stiffening * touch.effective_mass());
       answer.normal_dashpot = p.normal_damping * factor;
       answer.tangential_dashpot = p.tangential_damping * factor;
     }
   }
   answer.force = answer.kn * touch.overlap;
-  if (settings.damped) answer.force -= answer.normal_dashpot * touch.opening_rate;
-  if (settings.limit_force && answer.force < 0.0) answer.force = 0.0;
+  if (settings.damped) answer.force = answer.force - answer.normal_dashpot * touch.opening_rate;
+  if (settings.limit_force) answer.force = select(answer.force < 0.0, Number{}, answer.force);
   return answer;
 }
 
 /// Cuts a number down to a limit, keeping its sign. @return whether it was beyond.
-[[gnu::always_inline]] inline bool cut(double& value, double limit) {
-  if (!(std::abs(value) > limit)) return false;
-  value = std::copysign(limit, value);
-  return true;
-}
-
-/// Places of the springs of a contact. `history` keeps its spring as a vector (the two components), `li_chu`
-/// as its length along t, with the rolling displacement beside it; the rolling law has one value behind them:
-/// epsd2 its moment, N m, li_chu its angle, rad.
-inline constexpr int kRollingSpring = 2;
-constexpr int spring_count(RollingLaw rolling) {
-  return rolling == RollingLaw::off ? 2 : 3;
+template <typename Number>
+POLARGRAIN_INLINE auto cut(Number& value, Number limit) {
+  const auto beyond = magnitude(value) > limit;
+  value = select(beyond, with_sign_of(limit, value), value);
+  return beyond;
 }
 
 /// Tangential force on the first disc along t, N; moves the springs by a step when `advance`.
-template <TangentialLaw Law>
-[[gnu::always_inline]] inline double tangential_law(const PairParameters& p, const LawSettings& settings,
-                                                    const Touch& touch, const NormalAnswer& normal,
-                                                    double step, bool advance, double* springs) {
-  const double kt = normal.kt;
+template <TangentialLaw Law, typename Number>
+POLARGRAIN_INLINE Number tangential_law(const ParametersOf<Number>& p, const LawSettings& settings,
+                                        const Touch<Number>& touch, const NormalAnswer<Number>& normal,
+                                        double step, bool advance, Number* springs) {
+  const Number kt = normal.kt;
   if constexpr (Law == TangentialLaw::history) {
-    double spring = springs[1] * touch.nx - springs[0] * touch.ny;
-    if (advance) spring += touch.slip_rate * step;
-    double force = -kt * spring;
-    if (cut(force, p.friction * std::abs(normal.force)))
-      spring = -force / kt;
-    else if (settings.damped)
-      force -= normal.tangential_dashpot * touch.slip_rate;
+    Number spring = springs[1] * touch.nx - springs[0] * touch.ny;
+    if (advance) spring = spring + touch.slip_rate * step;
+    Number force = -kt * spring;
+    const auto slides = cut(force, p.friction * magnitude(normal.force));
+    if (any(slides)) spring = select(slides, -force / kt, spring);
+    if (settings.damped) force = select(slides, force, force - normal.tangential_dashpot * touch.slip_rate);
     if (advance) {
       springs[0] = -spring * touch.ny;
       springs[1] = spring * touch.nx;
     }
     return force;
   } else {
-    const double push = normal.force > 0.0 ? normal.force : 0.0;
-    const double cap = p.friction * push;
-    const double spring = advance ? springs[0] + touch.slip_rate * step : springs[0];
-    double elastic = kt * spring;
-    bool slides = cut(elastic, cap);
-    double rolling = 0.0;
-    double viscous = 0.0;
+    const Number push = normal.push();
+    const Number cap = p.friction * push;
+    const Number spring = advance ? springs[0] + touch.slip_rate * step : springs[0];
+    Number elastic = kt * spring;
+    auto slides = cut(elastic, cap);
+    Number rolling{};
+    Number viscous{};
     if (settings.rolling_force) {
       // Rolling displacement of the first along t: R* en x W = -R* W.
-      const double kr = p.rolling_force_stiffness * kt;
-      bool rolls_freely = false;
+      const Number kr = p.rolling_force_stiffness * kt;
+      auto rolls_freely = kr < kr;
       if (settings.symmetric) {
-        const double angle = springs[kRollingSpring] + (advance ? touch.relative_spin * step : 0.0);
+        const Number angle =
+            advance ? springs[kRollingSpring] + touch.relative_spin * step : springs[kRollingSpring];
         rolling = -kr * touch.harmonic * angle;
       } else {
-        const double rolled = springs[1] - (advance ? touch.harmonic * touch.relative_spin * step : 0.0);
+        const Number rolled = advance ? springs[1] - touch.harmonic * touch.relative_spin * step : springs[1];
         rolling = kr * rolled;
         rolls_freely = cut(rolling, p.rolling_force_friction * push);
-        if (advance) springs[1] = rolls_freely ? rolling / kr : rolled;
+        if (advance) springs[1] = select(rolls_freely, rolling / kr, rolled);
       }
-      if (settings.rolling_force_damped && !rolls_freely)
-        viscous = -2.0 * p.rolling_force_damping * std::sqrt(kr * touch.effective_mass()) * touch.harmonic *
-                  touch.relative_spin;
-      elastic += rolling;
-      slides = cut(elastic, cap) || slides;
+      if (settings.rolling_force_damped)
+        viscous = select(rolls_freely, Number{},
+                         -2.0 * p.rolling_force_damping * root(kr * touch.effective_mass()) * touch.harmonic *
+                             touch.relative_spin);
+      elastic = elastic + rolling;
+      slides = cut(elastic, cap) | slides;
     }
-    if (advance) springs[0] = slides && kt > 0.0 ? (elastic - rolling) / kt : spring;
-    double force = -elastic;
-    if (slides) return force;
-    if (settings.rolling_force_damped) force -= viscous;
-    if (settings.damped) force -= normal.tangential_dashpot * touch.slip_rate;
+    if (advance) {
+      springs[0] = spring;
+      if (any(slides)) springs[0] = select(slides & (kt > 0.0), (elastic - rolling) / kt, spring);
+    }
+    const Number force = -elastic;
+    if (!settings.rolling_force_damped && !settings.damped) return force;
+    Number damped = force;
+    if (settings.rolling_force_damped) damped = damped - viscous;
+    if (settings.damped) damped = damped - normal.tangential_dashpot * touch.slip_rate;
     // A dashpot cannot push past the friction of the surfaces either.
-    if (settings.rolling_force_damped || settings.damped) cut(force, cap);
-    return force;
+    cut(damped, cap);
+    return select(slides, force, damped);
   }
 }
 
+template <typename Number>
 struct RollingAnswer {
-  double moment = 0.0;     ///< on the second about e_3, N m; the first gets the opposite
-  double stiffness = 0.0;  ///< N m/rad
-  bool at_limit = false;
-  double limit = 0.0;  ///< of the moment, N m
+  Number moment{};     ///< on the second about e_3, N m; the first gets the opposite
+  Number stiffness{};  ///< N m/rad
+  Number at_limit{};   ///< 1, or 0
+  Number limit{};      ///< of the moment, N m
 };
 
 /// Rolling resistance; comes after the tangential law of the same contact.
-template <RollingLaw Law>
-[[gnu::always_inline]] inline RollingAnswer rolling_law(const PairParameters& p, const LawSettings& settings,
-                                                        const Touch& touch, const NormalAnswer& normal,
-                                                        double step, bool advance, double* springs) {
-  RollingAnswer answer;
+template <RollingLaw Law, typename Number>
+POLARGRAIN_INLINE RollingAnswer<Number> rolling_law(const ParametersOf<Number>& p,
+                                                    const LawSettings& settings, const Touch<Number>& touch,
+                                                    const NormalAnswer<Number>& normal, double step,
+                                                    bool advance, Number* springs) {
+  RollingAnswer<Number> answer;
   if constexpr (Law == RollingLaw::epsd2) {
-    const double radius = touch.harmonic;
+    const Number radius = touch.harmonic;
     answer.stiffness = normal.kt * radius * radius;
     // As in the engine, which looks a step ahead even where it does not keep it.
     answer.moment = springs[kRollingSpring] + answer.stiffness * touch.spin_difference * step;
-    answer.limit = p.rolling_friction * radius * std::abs(normal.force);
-    answer.at_limit = cut(answer.moment, answer.limit);
+    answer.limit = p.rolling_friction * radius * magnitude(normal.force);
+    answer.at_limit = select(cut(answer.moment, answer.limit), all<Number>(1.0), Number{});
     if (advance) springs[kRollingSpring] = answer.moment;
   } else if constexpr (Law == RollingLaw::li_chu) {
-    const double radius =
+    const Number radius =
         settings.mean_radius ? 0.5 * (touch.radius_first + touch.radius_second) : touch.harmonic;
     answer.stiffness = p.rolling_stiffness * normal.kt * radius * radius;
-    const double push = normal.force > 0.0 ? normal.force : 0.0;
-    const double angle = springs[kRollingSpring] + (advance ? touch.relative_spin * step : 0.0);
-    const double coupling =
-        settings.symmetric ? p.rolling_force_stiffness * normal.kt * touch.harmonic * springs[0] : 0.0;
+    const Number angle =
+        advance ? springs[kRollingSpring] + touch.relative_spin * step : springs[kRollingSpring];
+    const Number coupling =
+        settings.symmetric ? p.rolling_force_stiffness * normal.kt * touch.harmonic * springs[0] : Number{};
     answer.moment = answer.stiffness * angle - coupling;
-    answer.limit = p.rolling_friction * radius * push;
-    answer.at_limit = cut(answer.moment, answer.limit);
-    if (advance)
-      springs[kRollingSpring] = answer.at_limit ? (answer.moment + coupling) / answer.stiffness : angle;
-    if (settings.rolling_damped && !answer.at_limit)
-      answer.moment += 2.0 * p.rolling_damping * std::sqrt(answer.stiffness * touch.effective_inertia()) *
-                       touch.relative_spin;
+    answer.limit = p.rolling_friction * radius * normal.push();
+    const auto rolls = cut(answer.moment, answer.limit);
+    answer.at_limit = select(rolls, all<Number>(1.0), Number{});
+    if (advance) {
+      springs[kRollingSpring] = angle;
+      if (any(rolls))
+        springs[kRollingSpring] = select(rolls, (answer.moment + coupling) / answer.stiffness, angle);
+    }
+    if (settings.rolling_damped)
+      answer.moment = select(rolls, answer.moment,
+                             answer.moment + 2.0 * p.rolling_damping *
+                                                 root(answer.stiffness * touch.effective_inertia()) *
+                                                 touch.relative_spin);
   }
   return answer;
 }
 
+}  // namespace
 }  // namespace polargrain::dem

@@ -10,9 +10,9 @@
 #include "dem/cell/cell_state.hpp"
 #include "dem/cell/engine_box.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/lanes/instruction_set.hpp"
 #include "dem/pack/fix_gravity.hpp"
 #include "dem/pack/pressed_box.hpp"
-#include "dem/sphere_loop/instruction_set.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
 
 namespace polargrain::dem {

@@ -5,7 +5,7 @@
 
 #include "dem/box/grain_box.hpp"
 #include "dem/box/snapshot.hpp"
-#include "dem/sphere_loop/instruction_set.hpp"
+#include "dem/lanes/instruction_set.hpp"
 #include "dem/sphere_loop/sphere_constants.hpp"
 
 namespace LAMMPS_NS {

@@ -4,8 +4,8 @@
 // in the engine, whose headers hold the same laws; tests hold both side by side. The law is written for numbers of any
 // lanes. It has no branch that depends on a contact: a pair that has parted pushes with no force, so that every limit
 // is zero, and a spring cut to its limit is forgotten.
+#include "dem/lanes/vectors.hpp"
 #include "dem/sphere_loop/sphere_pass.hpp"
-#include "dem/sphere_loop/vectors.hpp"
 
 namespace polargrain::dem {
 namespace {

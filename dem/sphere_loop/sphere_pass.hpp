@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The data that the compiled kernels of the loop over spheres read and write: plain numbers and pointers, because each kernel is
-// compiled for an instruction set of its own (vectors.hpp).
+// compiled for an instruction set of its own (dem/lanes/vectors.hpp).
 
 namespace polargrain::dem {
 

@@ -11,7 +11,7 @@
 #include "dem/cell/packed_grains.hpp"
 #include "dem/cell/state_fault.hpp"
 #include "dem/discs/disc_box.hpp"
-#include "dem/discs/laws.hpp"
+#include "dem/discs/law_settings.hpp"
 #include "tests/support/flipped_bytes.hpp"
 #include "tests/support/lattice_fixture.hpp"
 

@@ -6,6 +6,7 @@ if(TARGET polargrain_dem)
     unit/dem_condensed_tangent_test.cpp)
 endif()
 polargrain_tests(unit polargrain_discs
+  unit/disc_kernels_test.cpp
   unit/sphere_kernels_test.cpp)
 polargrain_tests(unit polargrain_common
   unit/packing_test.cpp)

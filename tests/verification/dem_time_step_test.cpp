@@ -13,6 +13,7 @@
 #include "dem/cell/driver.hpp"
 #include "dem/cell/time_step.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/lanes/instruction_set.hpp"
 #include "tests/support/cell_fixture.hpp"
 #include "tests/support/lattice_fixture.hpp"
 #include "tests/support/plane_cells.hpp"
@@ -184,7 +185,8 @@ TEST(TimeStep, ASmallStepOfAScriptIsHonouredWithAWord) {
       << reply.response.message;
   cell.script += "\ntimestep 1.5e-5\n";
   EXPECT_EQ(make_plane_cell(cell)->initial().response.message,
-            "grains are stepped by the loop over discs (hooke/radii, history, off)");
+            "grains are stepped by the loop over discs (hooke/radii, history, off; " +
+                std::string(name_of(best_instruction_set())) + ")");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "dem/box/snapshot.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "dem/cell/state_fault.hpp"
-#include "dem/sphere_loop/instruction_set.hpp"
+#include "dem/lanes/instruction_set.hpp"
 #include "tests/support/sphere_cells.hpp"
 
 namespace polargrain::dem {

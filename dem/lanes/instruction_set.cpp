@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/sphere_loop/instruction_set.hpp"
+#include "dem/lanes/instruction_set.hpp"
 
 namespace polargrain::dem {
 

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+// The pass over the contacts of discs for numbers of some lanes. Included by one file for each instruction set. Each lane is one
+// contact; forces are summed up in the order of the list, as the plain twin does it (plain_contact_loop.cpp), whose bits
+// these are.
+#include "dem/discs/disc_motion_kernels.hpp"
+#include "dem/discs/disc_pass.hpp"
+#include "dem/discs/laws.hpp"
+
+namespace polargrain::dem {
+namespace {
+
+template <int Width_, NormalLaw Normal_, TangentialLaw Tangential_, RollingLaw Rolling_, bool Bare_>
+struct DiscLawKind {
+  static constexpr int width = Width_;
+  static constexpr NormalLaw normal = Normal_;
+  static constexpr TangentialLaw tangential = Tangential_;
+  static constexpr RollingLaw rolling = Rolling_;
+  static constexpr bool bare = Bare_;  ///< every setting is off, but the mean radius
+  static constexpr bool has_spring(int place) {
+    if (place == 0) return true;
+    if (place == 1) return Tangential_ == TangentialLaw::history || !Bare_;
+    return Rolling_ != RollingLaw::off;
+  }
+};
+
+template <typename Kind>
+struct DiscPassOf {
+  using Number = Lanes<Kind::width>;
+  using Sum = RowOfLane<Kind::width>;
+  /// Candidates that are treated before their forces are summed up: the processor then has several of them in hand.
+  static constexpr int kStretch = 64;
+  /// Force on the first disc, two; minus the moment that it takes; the moment that the second one takes.
+  using Answers = double[4][kStretch];
+  static constexpr int kMeetings = 6;
+  static constexpr int kStride = sizeof(Disc) / sizeof(double);
+
+  POLARGRAIN_INLINE static const double* row(const Disc* disc) { return &disc->x; }
+  POLARGRAIN_INLINE static double* row(DiscForce* force) { return &force->x; }
+
+  POLARGRAIN_INLINE static Number parameter(const DiscPass& pass, int c, double PairParameters::*which) {
+    if (!pass.kind) return all<Number>(pass.parameters->*which);
+    Number made{};
+    for (int lane = 0; lane < Kind::width; ++lane) made[lane] = pass.parameters[pass.kind[c + lane]].*which;
+    return made;
+  }
+
+  POLARGRAIN_INLINE static ParametersOf<Number> parameters(const DiscPass& pass, int c) {
+    return {parameter(pass, c, &PairParameters::normal),
+            parameter(pass, c, &PairParameters::tangential),
+            parameter(pass, c, &PairParameters::normal_damping),
+            parameter(pass, c, &PairParameters::tangential_damping),
+            parameter(pass, c, &PairParameters::friction),
+            parameter(pass, c, &PairParameters::rolling_friction),
+            parameter(pass, c, &PairParameters::rolling_stiffness),
+            parameter(pass, c, &PairParameters::rolling_damping),
+            parameter(pass, c, &PairParameters::rolling_force_friction),
+            parameter(pass, c, &PairParameters::rolling_force_stiffness),
+            parameter(pass, c, &PairParameters::rolling_force_damping)};
+  }
+
+  /// Where as many candidates as there are lanes lie and how they move. Roots and quotients take long: nothing waits for
+  /// them before the next candidates are under way.
+  POLARGRAIN_INLINE static void approach(const DiscPass& pass, int c, double* const (&out)[kMeetings]) {
+    const double* const rows = row(pass.discs);
+    const double* const images = &pass.images->x;
+    // A contact asks for differences: taken row by row, before the rows become columns.
+    Number apart[4];
+    columns_of(
+        [&]<typename Part>(int lane, int k, Part) POLARGRAIN_INLINE_LAMBDA {
+          return load<Part>(rows + static_cast<long>(pass.first[c + lane]) * kStride + k) -
+                 load<Part>(rows + static_cast<long>(pass.second[c + lane]) * kStride + k) -
+                 load<Part>(images + static_cast<long>(pass.image[c + lane]) * 4 + k);
+        },
+        apart);
+    DiscPair<Number> pair;
+    pair.dx = apart[0];
+    pair.dy = apart[1];
+    pair.vx = apart[2];
+    pair.vy = apart[3];
+    pair.measure();
+    const Number made[] = {pair.dx, pair.dy, pair.vx, pair.vy, pair.distance, pair.over_distance};
+    for (int k = 0; k < kMeetings; ++k) store(out[k], made[k]);
+  }
+
+  /// One number of each disc.
+  POLARGRAIN_INLINE static Number gathered(const double* of_first_disc, const int* index) {
+    Number made{};
+    for (int lane = 0; lane < Kind::width; ++lane)
+      made[lane] = of_first_disc[static_cast<long>(index[lane]) * kStride];
+    return made;
+  }
+
+  POLARGRAIN_INLINE static DiscPair<Number> meet(const DiscPass& pass, int c,
+                                                 const double* const (&from)[kMeetings]) {
+    DiscPair<Number> pair;
+    pair.dx = load<Number>(from[0]);
+    pair.dy = load<Number>(from[1]);
+    pair.vx = load<Number>(from[2]);
+    pair.vy = load<Number>(from[3]);
+    pair.distance = load<Number>(from[4]);
+    pair.over_distance = load<Number>(from[5]);
+    pair.spin_first = gathered(&pass.discs->spin, pass.first + c);
+    pair.spin_second = gathered(&pass.discs->spin, pass.second + c);
+    pair.radius_first = load<Number>(pass.radius_first + c);
+    pair.radius_second = load<Number>(pass.radius_second + c);
+    if constexpr (!Kind::bare) {
+      pair.inverse_mass_first = gathered(&pass.discs->inverse_mass, pass.first + c);
+      pair.inverse_mass_second = gathered(&pass.discs->inverse_mass, pass.second + c);
+      pair.inverse_inertia_first = gathered(&pass.discs->inverse_inertia, pass.first + c);
+      pair.inverse_inertia_second = gathered(&pass.discs->inverse_inertia, pass.second + c);
+    }
+    pair.harmonic = load<Number>(pass.harmonic + c);
+    return pair;
+  }
+
+  /// As many candidates as there are lanes. @param out where their answers go
+  POLARGRAIN_INLINE static void treat(const DiscPass& pass, int c, const DiscPair<Number>& pair,
+                                      double* const (&out)[4]) {
+    const auto touching = pair.touches();
+    const Touch<Number> touch = touch_of(pair, pass.bend_x, pass.bend_y);
+    LawSettings settings = pass.settings;
+    if constexpr (Kind::bare) {
+      settings = LawSettings{};
+      settings.mean_radius = pass.settings.mean_radius;
+    }
+    const ParametersOf<Number> p = parameters(pass, c);
+    Number springs[kDiscSprings]{};
+    for (int k = 0; k < kDiscSprings; ++k)
+      if (Kind::has_spring(k)) springs[k] = load<Number>(pass.springs[k] + c);
+    const NormalAnswer<Number> normal = normal_law<Kind::normal>(p, settings, touch);
+    const Number tangential =
+        tangential_law<Kind::tangential>(p, settings, touch, normal, pass.step, true, springs);
+    const RollingAnswer<Number> rolling =
+        rolling_law<Kind::rolling>(p, settings, touch, normal, pass.step, true, springs);
+    // Discs that have parted forget their springs.
+    for (int k = 0; k < kDiscSprings; ++k)
+      if (Kind::has_spring(k)) store(pass.springs[k] + c, select(touching, springs[k], Number{}));
+
+    Number turn_first = touch.arm_first * tangential;
+    Number turn_second = touch.arm_second * tangential;
+    if constexpr (Kind::rolling != RollingLaw::off) {
+      turn_first = turn_first + rolling.moment;
+      turn_second = turn_second - rolling.moment;
+    }
+    store(out[0], select(touching, normal.force * touch.nx - tangential * touch.ny, Number{}));
+    store(out[1], select(touching, normal.force * touch.ny + tangential * touch.nx, Number{}));
+    store(out[2], select(touching, -turn_first, Number{}));
+    store(out[3], select(touching, turn_second, Number{}));
+  }
+
+  /// Adds the answers of a stretch of candidates to the sums of their rows and to the second discs.
+  POLARGRAIN_INLINE static void sum_up(const DiscPass& pass, int begin, const Answers& answers, int count,
+                                       Sum& sum) {
+    for (int k = 0; k < count; k += Kind::width) {
+      Sum rows[Kind::width];
+      rows_of({load<Number>(answers[0] + k), load<Number>(answers[1] + k), load<Number>(answers[2] + k)},
+              load<Number>(answers[3] + k), rows);
+      for (int lane = 0; lane < Kind::width; ++lane) {
+        const int c = begin + k + lane;
+        sum = rows[lane].plus_kept(sum, pass.continues[c]);
+        sum.put(row(pass.row_sums + pass.first[c]));
+        rows[lane].with_fourth_as_third().take_from(row(pass.forces + pass.second[c]));
+      }
+    }
+  }
+
+  static void run(const DiscPass& given) {
+    const DiscPass pass = given;  // a copy that no store can alias
+    alignas(64) Answers answers;
+    alignas(64) double meetings[kMeetings][kStretch];
+    Sum sum;
+    for (int begin = 0; begin < pass.candidates; begin += kStretch) {
+      const int count = pass.candidates - begin < kStretch ? pass.candidates - begin : kStretch;
+      for (int k = 0; k < count; k += Kind::width)
+        approach(pass, begin + k,
+                 {meetings[0] + k, meetings[1] + k, meetings[2] + k, meetings[3] + k, meetings[4] + k,
+                  meetings[5] + k});
+      for (int k = 0; k < count; k += Kind::width) {
+        const DiscPair<Number> pair = meet(pass, begin + k,
+                                           {meetings[0] + k, meetings[1] + k, meetings[2] + k,
+                                            meetings[3] + k, meetings[4] + k, meetings[5] + k});
+        double* const out[] = {answers[0] + k, answers[1] + k, answers[2] + k, answers[3] + k};
+        treat(pass, begin + k, pair, out);
+      }
+      sum_up(pass, begin, answers, count, sum);
+    }
+    for (int k = 0; k < pass.count; ++k) {
+      const double* const from = row(pass.row_sums + k);
+      double* const to = row(pass.forces + k);
+      for (int axis = 0; axis < 4; ++axis) to[axis] += from[axis];
+    }
+  }
+};
+
+template <int Width, NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling>
+void list_settings(DiscKernels& kernels) {
+  auto& pair =
+      kernels.pass[static_cast<int>(Normal)][static_cast<int>(Tangential)][static_cast<int>(Rolling)];
+  pair[0] = &DiscPassOf<DiscLawKind<Width, Normal, Tangential, Rolling, false>>::run;
+  pair[1] = &DiscPassOf<DiscLawKind<Width, Normal, Tangential, Rolling, true>>::run;
+}
+
+template <int Width, NormalLaw Normal, TangentialLaw Tangential>
+void list_rolling(DiscKernels& kernels) {
+  list_settings<Width, Normal, Tangential, RollingLaw::off>(kernels);
+  list_settings<Width, Normal, Tangential, RollingLaw::epsd2>(kernels);
+  list_settings<Width, Normal, Tangential, RollingLaw::li_chu>(kernels);
+}
+
+template <int Width, NormalLaw Normal>
+void list_tangential(DiscKernels& kernels) {
+  list_rolling<Width, Normal, TangentialLaw::history>(kernels);
+  list_rolling<Width, Normal, TangentialLaw::li_chu>(kernels);
+}
+
+template <int Width>
+DiscKernels disc_kernels_of_lanes() {
+  DiscKernels kernels{};
+  list_tangential<Width, NormalLaw::hooke_radii>(kernels);
+  list_tangential<Width, NormalLaw::hooke_stiffness>(kernels);
+  list_tangential<Width, NormalLaw::hertz>(kernels);
+  kernels.begin_step = &begin_disc_step<Lanes<Width>>;
+  kernels.end_step = &end_disc_step<Lanes<Width>>;
+  return kernels;
+}
+
+}  // namespace
+}  // namespace polargrain::dem
