@@ -66,15 +66,15 @@ class BinsOfDiscs {
   /// Calls `visit(members, copy)` for the bins around a place; `copy`: which copy of the box they are seen in.
   template <typename Visit>
   void around(const PlaceOfDisc& place, Visit visit) const {
-    for (int dy = -span_2; dy <= span_2; ++dy)
+    LatticeVector copy;
+    for (int dy = -span_2; dy <= span_2; ++dy) {
+      const int row = folded(place.row + dy, rows_, copy.q);
       for (int dx = -span_1; dx <= span_1; ++dx) {
-        const int column = place.column + dx;
-        const int row = place.row + dy;
-        const LatticeVector copy{floor_divide(column, columns_), floor_divide(row, rows_)};
-        const std::size_t b =
-            static_cast<std::size_t>(row - copy.q * rows_) * columns_ + (column - copy.p * columns_);
+        const int column = folded(place.column + dx, columns_, copy.p);
+        const std::size_t b = static_cast<std::size_t>(row) * columns_ + column;
         visit(std::span(members_).subspan(starts_[b], starts_[b + 1] - starts_[b]), copy);
       }
+    }
   }
 
   std::vector<PlaceOfDisc> places;  ///< of the discs
@@ -82,8 +82,13 @@ class BinsOfDiscs {
   int span_2 = 1;
 
  private:
-  static std::int32_t floor_divide(int number, int by) {
-    return number >= 0 ? number / by : -((by - 1 - number) / by);
+  /// Number of the bin from 0 to count - 1 where it lies. @param copies of the box that lie between. A division would
+  /// cost more than the distances that are looked at.
+  static int folded(int number, int count, std::int32_t& copies) {
+    copies = 0;
+    for (; number < 0; number += count) --copies;
+    for (; number >= count; number -= count) ++copies;
+    return number;
   }
   [[nodiscard]] std::size_t bin(const PlaceOfDisc& place) const {
     return static_cast<std::size_t>(place.row) * columns_ + place.column;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "dem/contact/hertz_slope.hpp"
 
 namespace polargrain::dem {
 
@@ -170,6 +171,7 @@ void DiscBox::find_candidates() {
   listed_inverse_ = base.inverse();
   wandered_ = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
+  records_.resize(DiscRecord::columns * list_.second.size());
   images_.resize(list_.images.size() + 1);
   images_.back().x = 10.0 * largest_radius_;  // of pairs that never touch
   place_images();
@@ -214,13 +216,17 @@ void DiscBox::go_on(const BoxPath<2>& path, double damping_rate, const Loading& 
 }
 
 void DiscBox::compute_forces(bool advance, bool record) {
-  if (record || definition_.plain) {
-    contacts_.clear();
+  double* const records = record ? records_.data() : nullptr;
+  if (definition_.plain)
     plain_loop_.add_forces(
-        {discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step, advance}, list_,
-        forces_, contacts_);
-    return;
-  }
+        {discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step, advance, records},
+        list_, forces_);
+  else
+    run_kernel(advance, records);
+  if (record) read_records();
+}
+
+void DiscBox::run_kernel(bool advance, double* records) {
   DiscPass pass{};
   pass.discs = discs_.data();
   pass.images = images_.data();
@@ -243,7 +249,38 @@ void DiscBox::compute_forces(bool advance, bool record) {
   const Eigen::RowVector2d bend = motion_.curvature_rate();
   pass.bend_x = bend.x();
   pass.bend_y = bend.y();
+  pass.advance = advance;
+  pass.records = records;
   pass_(pass);
+}
+
+void DiscBox::read_records() {
+  contacts_.clear();
+  const DiscCombination& laws = definition_.combination;
+  const double slope = laws.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
+  const std::size_t candidates = list_.second.size();
+  const auto at = [this, candidates](int column, std::size_t c) {
+    return records_[static_cast<std::size_t>(column) * candidates + c];
+  };
+  for (std::size_t c = 0; c < static_cast<std::size_t>(list_.rows.back()); ++c) {
+    if (at(DiscRecord::touches, c) == 0.0) continue;
+    Contact& contact = contacts_.emplace_back();
+    contact.first = list_.first[c];
+    contact.second = list_.second[c];
+    contact.branch = {-at(DiscRecord::delta, c), -at(DiscRecord::delta + 1, c), 0.0};
+    contact.force = {at(DiscRecord::force, c), at(DiscRecord::force + 1, c), 0.0};
+    contact.normal_stiffness = slope * at(DiscRecord::stiffnesses, c);
+    contact.tangential_stiffness = at(DiscRecord::stiffnesses + 1, c);
+    contact.normal_viscosity = at(DiscRecord::dashpots, c);
+    contact.tangential_viscosity = at(DiscRecord::dashpots + 1, c);
+    contact.arm_first = at(DiscRecord::arms, c);
+    contact.arm_second = at(DiscRecord::arms + 1, c);
+    contact.friction = laws.pairs[list_.kind[c]].friction;
+    contact.moment.z() = -at(DiscRecord::moment, c);
+    contact.rolling_stiffness = at(DiscRecord::rolling, c);
+    contact.rolling_at_limit = at(DiscRecord::is_rolling, c) != 0.0;
+    contact.rolling_limit = at(DiscRecord::rolling_limit, c);
+  }
 }
 
 void DiscBox::set_up() {

@@ -73,6 +73,10 @@ class DiscBox final : public GrainBox<2> {
   [[nodiscard]] bool outgrown();
   void place_images();
   void compute_forces(bool advance, bool record);
+  /// @param records as of a DiscPass
+  void run_kernel(bool advance, double* records);
+  /// Contacts from the records of the last pass.
+  void read_records();
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
   /// The pass over the discs, with the numbers of the step that ends.
@@ -102,6 +106,7 @@ class DiscBox final : public GrainBox<2> {
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
   double multiplier_ = 0.0;
+  LineVector<double> records_;
   std::vector<Contact> contacts_;
   mutable std::vector<double> rotations_, places_;
 };

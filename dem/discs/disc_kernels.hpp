@@ -130,12 +130,13 @@ struct DiscPassOf {
       if (Kind::has_spring(k)) springs[k] = load<Number>(pass.springs[k] + c);
     const NormalAnswer<Number> normal = normal_law<Kind::normal>(p, settings, touch);
     const Number tangential =
-        tangential_law<Kind::tangential>(p, settings, touch, normal, pass.step, true, springs);
+        tangential_law<Kind::tangential>(p, settings, touch, normal, pass.step, pass.advance, springs);
     const RollingAnswer<Number> rolling =
-        rolling_law<Kind::rolling>(p, settings, touch, normal, pass.step, true, springs);
+        rolling_law<Kind::rolling>(p, settings, touch, normal, pass.step, pass.advance, springs);
     // Discs that have parted forget their springs.
-    for (int k = 0; k < kDiscSprings; ++k)
-      if (Kind::has_spring(k)) store(pass.springs[k] + c, select(touching, springs[k], Number{}));
+    if (pass.advance)
+      for (int k = 0; k < kDiscSprings; ++k)
+        if (Kind::has_spring(k)) store(pass.springs[k] + c, select(touching, springs[k], Number{}));
 
     Number turn_first = touch.arm_first * tangential;
     Number turn_second = touch.arm_second * tangential;
@@ -147,6 +148,25 @@ struct DiscPassOf {
     store(out[1], select(touching, normal.force * touch.ny + tangential * touch.nx, Number{}));
     store(out[2], select(touching, -turn_first, Number{}));
     store(out[3], select(touching, turn_second, Number{}));
+    if (!pass.records) return;
+    const auto put = [&pass, c](int column, Number value) POLARGRAIN_INLINE_LAMBDA {
+      store(pass.records + static_cast<long>(column) * pass.candidates + c, value);
+    };
+    put(DiscRecord::touches, select(touching, all<Number>(1.0), Number{}));
+    put(DiscRecord::delta, pair.dx);
+    put(DiscRecord::delta + 1, pair.dy);
+    put(DiscRecord::force, load<Number>(out[0]));
+    put(DiscRecord::force + 1, load<Number>(out[1]));
+    put(DiscRecord::moment, rolling.moment);
+    put(DiscRecord::stiffnesses, normal.kn);
+    put(DiscRecord::stiffnesses + 1, normal.kt);
+    put(DiscRecord::dashpots, normal.normal_dashpot);
+    put(DiscRecord::dashpots + 1, normal.tangential_dashpot);
+    put(DiscRecord::arms, touch.arm_first);
+    put(DiscRecord::arms + 1, touch.arm_second);
+    put(DiscRecord::rolling, rolling.stiffness);
+    put(DiscRecord::rolling_limit, rolling.limit);
+    put(DiscRecord::is_rolling, rolling.at_limit);
   }
 
   /// Adds the answers of a stretch of candidates to the sums of their rows and to the second discs.

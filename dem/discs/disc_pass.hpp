@@ -10,7 +10,24 @@ namespace polargrain::dem {
 /// Candidates are filled up to whole blocks of so many, however many lanes an instruction set has.
 inline constexpr int kDiscBlock = 8;
 
-/// One pass over the candidates: forces from places, velocities and springs, which move by a step. Rows of candidates of
+/// The record of a candidate: a number in each of these columns.
+struct DiscRecord {
+  enum Column {
+    touches,        ///< 1, or 0
+    delta,          ///< two: from the centre of the second disc to that of the first, m
+    force = 3,      ///< two: on the first, N
+    moment = 5,     ///< rolling resistance on the second, N m
+    stiffnesses,    ///< two: normal, tangential, N/m
+    dashpots = 8,   ///< two: normal, tangential, N s/m
+    arms = 10,      ///< two: centre to contact point, m
+    rolling = 12,   ///< stiffness, N m
+    rolling_limit,  ///< N m
+    is_rolling,     ///< the rolling spring stands at its limit
+    columns
+  };
+};
+
+/// One pass over the candidates: forces from places, velocities and springs. Rows of candidates of
 /// one disc stand one behind the other; the discs at the end of the last block are far apart.
 struct DiscPass {
   const Disc* discs;
@@ -31,6 +48,8 @@ struct DiscPass {
   int candidates, count;  ///< in whole blocks; of discs
   double step;            ///< s
   double bend_x, bend_y;  ///< rate of curvature in the frame of the box, rad/(m s)
+  bool advance;           ///< springs move by a step
+  double* records;  ///< columns of DiscRecord, each as long as the candidates; null: nothing is taken down
 };
 
 /// One pass over the discs: the second half of a step and the first half of the next. Matrices row after row.

@@ -59,14 +59,14 @@ DiscPair<double> meet(const PlainContactLoop::Scene& scene, const CandidateList&
 
 }  // namespace
 
-void PlainContactLoop::add_forces(const Scene& scene, CandidateList& list, std::span<DiscForce> forces,
-                                  std::vector<Contact>& contacts) const {
-  const double slope = combination_.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
+void PlainContactLoop::add_forces(const Scene& scene, CandidateList& list,
+                                  std::span<DiscForce> forces) const {
   for (std::size_t i = 0; i < scene.discs.size(); ++i) {
     DiscForce sum;
     for (std::int32_t c = list.rows[i]; c < list.rows[i + 1]; ++c) {
       DiscPair<double> pair = meet(scene, list, c);
       if (!pair.touches()) {
+        if (scene.records) scene.records[c] = 0.0;
         if (scene.advance)
           for (LineVector<double>& values : list.springs) values[c] = 0.0;
         continue;
@@ -95,23 +95,24 @@ void PlainContactLoop::add_forces(const Scene& scene, CandidateList& list, std::
       other.y -= fy;
       other.torque -= touch.arm_second * tangential - rolling.moment;
 
-      Contact contact;
-      contact.first = static_cast<int>(i);
-      contact.second = list.second[c];
-      contact.branch = {-pair.dx, -pair.dy, 0.0};
-      contact.force = {fx, fy, 0.0};
-      contact.normal_stiffness = slope * normal.kn;
-      contact.tangential_stiffness = normal.kt;
-      contact.normal_viscosity = normal.normal_dashpot;
-      contact.tangential_viscosity = normal.tangential_dashpot;
-      contact.arm_first = touch.arm_first;
-      contact.arm_second = touch.arm_second;
-      contact.friction = p.friction;
-      contact.moment.z() = -rolling.moment;
-      contact.rolling_stiffness = rolling.stiffness;
-      contact.rolling_at_limit = rolling.at_limit != 0.0;
-      contact.rolling_limit = rolling.limit;
-      contacts.push_back(contact);
+      if (!scene.records) continue;
+      const double made[] = {1.0,
+                             pair.dx,
+                             pair.dy,
+                             fx,
+                             fy,
+                             rolling.moment,
+                             normal.kn,
+                             normal.kt,
+                             normal.normal_dashpot,
+                             normal.tangential_dashpot,
+                             touch.arm_first,
+                             touch.arm_second,
+                             rolling.stiffness,
+                             rolling.limit,
+                             rolling.at_limit};
+      for (int column = 0; column < DiscRecord::columns; ++column)
+        scene.records[static_cast<std::size_t>(column) * list.second.size() + c] = made[column];
     }
     forces[i].x += sum.x;
     forces[i].y += sum.y;

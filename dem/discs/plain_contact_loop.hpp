@@ -2,16 +2,15 @@
 #pragma once
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
-#include "dem/contact/contact_recorder.hpp"
 #include "dem/discs/candidates.hpp"
 #include "dem/discs/combination.hpp"
+#include "dem/discs/disc_pass.hpp"
 
 namespace polargrain::dem {
 
 /// One pass over the contacts of discs, which reads like the equations: laws chosen at run time, one contact after the
-/// other. It takes contacts down, and the compiled kernels (disc_pass.hpp) are held to its bits.
+/// other. The compiled kernels (disc_pass.hpp) are held to its bits.
 class PlainContactLoop {
  public:
   struct Scene {
@@ -20,13 +19,13 @@ class PlainContactLoop {
     Eigen::Vector2d curvature_rate;       ///< in the frame of the box, rad/(m s)
     double step = 0.0;                    ///< time step, s
     bool advance = false;                 ///< springs move by a step
+    double* records = nullptr;            ///< as of a DiscPass
   };
 
   explicit PlainContactLoop(const DiscCombination& combination) : combination_(combination) {}
 
-  /// Adds the contact forces to `forces`; moves the springs of `list`; appends the contacts.
-  void add_forces(const Scene& scene, CandidateList& list, std::span<DiscForce> forces,
-                  std::vector<Contact>& contacts) const;
+  /// Adds the contact forces to `forces`; moves the springs of `list`.
+  void add_forces(const Scene& scene, CandidateList& list, std::span<DiscForce> forces) const;
 
  private:
   DiscCombination combination_;
