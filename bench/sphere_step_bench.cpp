@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The cost of a step of one sphere, side by side in one run: a clean scalar loop of the same physics
 // (clean_sphere_loop.hpp), the loop over spheres that cells run with each instruction set of this processor, its plain
-// twin, and the engine's general loop. Processor time, best of several rounds, the variants taking turns, because the
-// machine is not alone.
+// twin, the engine's general loop, and LAMMPS (`lmp`) where it is installed. Processor time, best of several rounds, the
+// variants taking turns, because the machine is not alone.
 //
 //   build/release/bench/sphere_step_bench [rounds]     from the root of the project; a minute
 #include <fmt/format.h>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bench/clean_sphere_loop.hpp"
+#include "bench/stock_programs.hpp"
 #include "common/packing.hpp"
 #include "common/processor.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
@@ -160,6 +161,18 @@ Variant engine(const Packing& packing, bool rolling) {
 }
 #endif
 
+/// LAMMPS with its nearest models, as stiff as the linear law at the overlaps of this packing.
+Variant lammps(const bench::StockPacking& packing, bool rolling) {
+  const std::string models = std::string("hooke 3e6 0 tangential linear_history 2.4e6 0 0.5463") +
+                             (rolling ? " rolling sds 2.4e6 0 0.1 twisting sds 15 0 0.1" : "") +
+                             " damping velocity";
+  return {"lammps", [&packing, models] {
+            constexpr int kStockSteps = 3000;
+            return packing.seconds_a_step(
+                true, models, {kStrain / (kStockSteps * kTimeStep), kTimeStep, 12.0}, kStockSteps);
+          }};
+}
+
 void compare(const std::string& laws, const Packing& packing, bool rolling, int rounds) {
   std::vector<Variant> variants;
   variants.push_back(rolling ? clean<true>(packing) : clean<false>(packing));
@@ -172,13 +185,21 @@ void compare(const std::string& laws, const Packing& packing, bool rolling, int 
 #ifdef POLARGRAIN_WITH_ENGINE
   variants.push_back(engine(packing, rolling));
 #endif
+  const bench::StockPacking for_lammps(packing, true);
+  if (bench::is_installed("lmp")) variants.push_back(lammps(for_lammps, rolling));
   for (int round = 0; round < rounds; ++round)
-    for (Variant& variant : variants) variant.best = std::min(variant.best, variant.seconds_a_step());
+    for (Variant& variant : variants) {
+      const double time = variant.seconds_a_step();
+      variant.best = time < 0.0 ? time : std::min(variant.best, time);
+    }
   fmt::print("\n{}\n{:<28} {:>12} {:>12}\n", laws, "", "ns a sphere", "over clean");
   const auto spheres = static_cast<double>(packing.grains.size());
   for (const Variant& variant : variants)
-    fmt::print("{:<28} {:>12.1f} {:>12.2f}\n", variant.what, 1e9 * variant.best / spheres,
-               variant.best / variants.front().best);
+    if (variant.best < 0.0)
+      fmt::print("{:<28} did not run\n", variant.what);
+    else
+      fmt::print("{:<28} {:>12.1f} {:>12.2f}\n", variant.what, 1e9 * variant.best / spheres,
+                 variant.best / variants.front().best);
 }
 
 int main_of_bench(int rounds) {

@@ -7,21 +7,18 @@
 //   build/release/bench/step_bench [rounds [words of a name]]     from the root of the project; about two
 //   minutes
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench/bare_loop.hpp"
+#include "bench/stock_programs.hpp"
 #include "dem/cell/cell_service.hpp"
 #include "tests/support/cell_fixture.hpp"
 #include "tests/support/plane_cells.hpp"
@@ -125,54 +122,8 @@ void hold_to_cell(const Packing& packing, const std::string& style) {
   std::exit(1);
 }
 
-bool installed(const std::string& program) {
-  return std::system(fmt::format("command -v {} > /dev/null", program).c_str()) == 0;
-}
-
-/// Processor time of a program's run of bench/step.in, s; negative when it failed.
-double program_seconds(const std::string& command, int steps) {
-  const auto spent = [] {
-    rusage usage{};
-    getrusage(RUSAGE_CHILDREN, &usage);
-    return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-  };
-  const double before = spent();
-  const std::string whole = fmt::format(
-      "{} -in bench/step.in -log none -var steps {} -var rate {:.17g} -var step {:.17g} > /dev/null 2>&1",
-      command, steps, kStrain / (kProgramSteps * kTimeStep), kTimeStep);
-  return std::system(whole.c_str()) == 0 ? spent() - before : -1.0;
-}
-
-/// The packing as a data file of the program, in a right box.
-std::string data_file(const Packing& packing, const std::string& program) {
-  const std::string name = fmt::format("/tmp/step_bench.{}.{}.data", program, getpid());
-  std::ofstream file(name);
-  file << fmt::format(
-      "packing of step_bench\n\n{} atoms\n1 atom types\n\n0 {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n",
-      packing.grains.size(), packing.box(0, 0), packing.box(1, 1));
-  file << fmt::format("{0:.17g} {1:.17g} zlo zhi\n\nAtoms\n\n", -0.5 * packing.thickness,
-                      0.5 * packing.thickness);
-  for (const Grain& grain : packing.grains) {
-    // In dimension 2 liggghts takes a density for that of discs of unit thickness, lammps for that of
-    // spheres.
-    const double area = std::numbers::pi * grain.radius * grain.radius;
-    const double volume = program == "lammps" ? 4.0 / 3.0 * area * grain.radius : area;
-    file << fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} 0\n", grain.id + 1, 2.0 * grain.radius,
-                        grain.mass / volume, grain.position.x(), grain.position.y());
-  }
-  return name;
-}
-
-Variant program_variant(std::string what, const std::string& command) {
-  return {std::move(what), [command] {
-            const double start_up = program_seconds(command, 0);
-            const double whole = program_seconds(command, kProgramSteps);
-            return start_up < 0.0 || whole < 0.0 ? -1.0 : (whole - start_up) / kProgramSteps;
-          }};
-}
-
-void add_programs(std::vector<Variant>& variants, const std::string& liggghts_data,
-                  const std::string& lammps_data) {
+void add_programs(std::vector<Variant>& variants, const bench::StockPacking& for_liggghts,
+                  const bench::StockPacking& for_lammps) {
   struct Row {
     std::string what, liggghts, lammps;
   };
@@ -182,20 +133,18 @@ void add_programs(std::vector<Variant>& variants, const std::string& liggghts_da
       {"hooke/stiffness history, rolling epsd2 (lammps: sds)",
        "hooke/stiffness tangential history rolling_friction epsd2 absolute_damping on",
        "hooke 3e6 0 tangential linear_history 2.4e6 0 0.5463 rolling sds 2.4e6 0 0.2 damping velocity"}};
-  const bool have_liggghts = installed("liggghts");
-  const bool have_lammps = installed("lmp");
-  if (!have_liggghts) fmt::print(stderr, "liggghts is not installed: left out\n");
-  if (!have_lammps) fmt::print(stderr, "lammps (lmp) is not installed: left out\n");
-  const std::string line = "{} -var lammps {} -var packing {} -var models \"{}\"";
+  const bench::StockStrain strain{kStrain / (kProgramSteps * kTimeStep), kTimeStep, 30.0};
+  const bool have_liggghts = bench::is_installed("liggghts");
+  const bool have_lammps = bench::is_installed("lmp");
+  const auto add = [&variants, &strain](const std::string& what, const bench::StockPacking& packing,
+                                        bool lammps, const std::string& models) {
+    variants.push_back({what, [&packing, lammps, models, strain] {
+                          return packing.seconds_a_step(lammps, models, strain, kProgramSteps);
+                        }});
+  };
   for (const Row& row : rows) {
-    if (have_liggghts)
-      variants.push_back(
-          program_variant("liggghts: " + row.what,
-                          fmt::format(fmt::runtime(line), "liggghts", 0, liggghts_data, row.liggghts)));
-    if (have_lammps)
-      variants.push_back(program_variant(
-          "lammps: " + row.what,
-          fmt::format(fmt::runtime("OMP_NUM_THREADS=1 " + line), "lmp", 1, lammps_data, row.lammps)));
+    if (have_liggghts) add("liggghts: " + row.what, for_liggghts, false, row.liggghts);
+    if (have_lammps) add("lammps: " + row.what, for_lammps, true, row.lammps);
   }
 }
 
@@ -232,9 +181,8 @@ int bench_steps(int rounds, const std::string& words) {
   hold_to_cell<false>(packing, "hooke/radii tangential history");
   hold_to_cell<true>(packing, "hooke/radii tangential history rolling_friction li_chu");
   std::vector<Variant> variants = all_variants(packing);
-  const std::string liggghts_data = data_file(packing, "liggghts");
-  const std::string lammps_data = data_file(packing, "lammps");
-  add_programs(variants, liggghts_data, lammps_data);
+  const bench::StockPacking for_liggghts(packing, false), for_lammps(packing, true);
+  add_programs(variants, for_liggghts, for_lammps);
   std::erase_if(variants, [&words](const Variant& variant) {
     return !variant.what.starts_with("bare") && variant.what.find(words) == std::string::npos;
   });
@@ -243,8 +191,6 @@ int bench_steps(int rounds, const std::string& words) {
       const double time = variant.seconds_a_step();
       variant.best = time < 0.0 ? time : std::min(variant.best, time);
     }
-  std::remove(liggghts_data.c_str());
-  std::remove(lammps_data.c_str());
   // The engine talks on standard output; the table goes where it can be told apart.
   fmt::print(stderr, "\n{:66} {:>13} {:>10} {:>10}\n", "", "ns/grain-step", "over bare", "sliding");
   for (const Variant& variant : variants) {
