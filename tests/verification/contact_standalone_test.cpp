@@ -51,8 +51,9 @@ const std::string kProgram = POLARGRAIN_LIGGGHTS;
 const std::string kScripts = "liggghts_inputs/contact_models/";
 
 TEST(Standalone, DiscOnAnInclineStaysBelowItsRollingFriction) {
-  const auto rows = run(kProgram, "-in " + kScripts + "incline.in -var angle 0.099 -var mu_th 0.1").rows(3);
-  ASSERT_EQ(rows.size(), 6U);
+  const Outcome outcome = run(kProgram, "-in " + kScripts + "incline.in -var angle 0.099 -var mu_th 0.1");
+  const auto rows = outcome.rows(3);
+  ASSERT_EQ(rows.size(), 6U) << outcome.text;
   std::cout << "[figure] tan(0.099) < 0.1: velocity after 0.5 s " << rows.back()[1] << " m/s\n";
   // tan(0.099) = 0.0993. Free rolling would have reached 0.3 m/s; what is left is the decaying elastic swing.
   EXPECT_LT(std::abs(rows.back()[1]), 1e-6);
@@ -60,10 +61,10 @@ TEST(Standalone, DiscOnAnInclineStaysBelowItsRollingFriction) {
 
 TEST(Standalone, DiscOnAnInclineRollsDownBeyondItsRollingFriction) {
   for (const double angle : {0.105, 0.2, 0.4}) {
-    const auto rows =
-        run(kProgram, "-in " + kScripts + "incline.in -var mu_th 0.1 -var angle " + std::to_string(angle))
-            .rows(3);
-    ASSERT_EQ(rows.size(), 6U);
+    const Outcome outcome =
+        run(kProgram, "-in " + kScripts + "incline.in -var mu_th 0.1 -var angle " + std::to_string(angle));
+    const auto rows = outcome.rows(3);
+    ASSERT_EQ(rows.size(), 6U) << outcome.text;
     const double acceleration = (rows[5][1] - rows[2][1]) / (15000 * 2e-5);
     const double exact = 9.81 * (std::sin(angle) - 0.1 * std::cos(angle)) / 1.5;
     std::cout << "[figure] incline " << angle << ": acceleration / exact " << acceleration / exact << "\n";
