@@ -26,6 +26,12 @@ constexpr double kLongestCorrection = 2.0;
 /// A step is cut whose guess or answer strains more than so many of the largest increments: one that is asked for as a
 /// strain of that size is not.
 constexpr double kLargestStep = 2.0;
+/// A stage that changes its stresses by less than the first share of the pressure meets them to the second share of that change.
+/// By the tolerance alone it would hardly move.
+constexpr double kSmallChange = 0.05;
+constexpr double kShareOfChange = 0.02;
+/// Rounding of stresses, over the pressure.
+constexpr double kRoundingOfStress = 1e-12;
 /// A residual that is not below this share of the one before shows a tangent that is not the answer's own.
 constexpr double kGoodShare = 0.5;
 /// Steps without loading that bring the stress back after a jump.
@@ -38,6 +44,25 @@ Vector6 upper(const Matrix3d& h) {
     values(place) = h(i, j);
   }
   return values;
+}
+
+/// By how much a stage asks a stress to change; 0: it does not, or no stress is prescribed.
+/// @param goes_on whether the start is what was asked for before. Else it is a stress as it was found, off by tolerances
+double asked_change(const Constraint& constraint, double start, bool goes_on) {
+  if (constraint.kind != Constraint::Kind::stress) return 0.0;
+  const double amount = constraint.amount;
+  switch (constraint.way) {
+    case Constraint::Way::hold:
+      break;
+    case Constraint::Way::reach:
+      if (goes_on) return std::abs(amount - start);
+      return amount == 0.0 ? 0.0 : std::max(std::abs(amount), std::abs(amount - start));
+    case Constraint::Way::cycle:
+      return std::abs(amount);
+    case Constraint::Way::scale:
+      return std::abs(start * (amount - 1.0));
+  }
+  return 0.0;
 }
 
 /// How a step ended.
@@ -95,6 +120,7 @@ class Follower {
   double pore_pressure_ = 0.0;  ///< at the start of the stage
   Vector6 stress_at_start_ = Vector6::Zero();
   double residual_ = 0.0;
+  double tolerance_ = 0.0;  ///< of the stage
   int row_steps_ = 0;
   int row_evaluations_ = 0;
   int jumps_ = 0;
@@ -223,7 +249,7 @@ bool Follower::is_met(double t) const {
   for (std::size_t k = 0; k < stage_->constraints.size(); ++k)
     if (stage_->constraints[k].kind != Constraint::Kind::stress)
       of_geometry = std::max(of_geometry, std::abs(r(static_cast<Eigen::Index>(k))));
-  return of_geometry <= kGeometry && stress_residual(r) <= accuracy_.tolerance;
+  return of_geometry <= kGeometry && stress_residual(r) <= tolerance_;
 }
 
 /// One step from the committed state to stage time t.
@@ -270,7 +296,7 @@ Trial Follower::step(double t, bool is_last) {
     const Vector answer = residuals(six(trial.response.stress), strain, t);
     trial.residual = stress_residual(answer);
     trial.usable = trial.response.quality == Quality::good;
-    if (trial.residual <= accuracy_.tolerance) {
+    if (trial.residual <= tolerance_) {
       trial.accepted = trial.usable;
       trial.reason = trial.response.message;
       return trial;
@@ -309,6 +335,7 @@ void Follower::start_stage(const Stage& stage) {
   const std::vector<double> starts_before = starts_;
   if (stage_ != nullptr && stage_->pore >= 0)
     pore_pressure_ += six(response_.stress)(stage_->pore) - stress_at_start_(stage_->pore);
+  if (stage.pore < 0) pore_pressure_ = 0.0;
   stage_ = &stage;
   if (stage.zero) {
     volume_before_zero_ *= volume_of(strain_);
@@ -316,16 +343,25 @@ void Follower::start_stage(const Stage& stage) {
   }
   stress_at_start_ = six(response_.stress);
   starts_.clear();
+  double asked = 0.0;  // the largest change of a stress
   for (const Constraint& constraint : stage.constraints) {
+    bool goes_on = false;
     double start = value(constraint, stress_at_start_, strain_);
     // A stress that was prescribed goes on from what was asked for, not from how well that was met.
     if (constraint.kind == Constraint::Kind::stress && before != nullptr)
       for (std::size_t k = 0; k < before->constraints.size(); ++k)
         if (before->constraints[k].kind == constraint.kind &&
-            before->constraints[k].weights == constraint.weights)
+            before->constraints[k].weights == constraint.weights) {
           start = target(before->constraints[k], before->cycles, starts_before[k], 1.0);
+          goes_on = true;
+        }
     starts_.push_back(start);
+    asked = std::max(asked, asked_change(constraint, start, goes_on));
   }
+  tolerance_ = accuracy_.tolerance;
+  asked /= accuracy_.pressure;
+  if (asked > 0.0 && asked < kSmallChange)
+    tolerance_ = std::min(tolerance_, std::max(kShareOfChange * asked, kRoundingOfStress));
 }
 
 std::string Follower::advance(const Stage& stage, int row) {
@@ -360,7 +396,7 @@ std::string Follower::advance(const Stage& stage, int row) {
     commit(taken);
     at += length;
   }
-  return residual_ <= accuracy_.tolerance ? "" : bring_back(time_at(parts));
+  return residual_ <= tolerance_ ? "" : bring_back(time_at(parts));
 }
 
 std::string Follower::bring_back(double t) {

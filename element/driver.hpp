@@ -12,8 +12,9 @@ namespace polargrain::element {
 
 /// How exactly a test is followed.
 struct Accuracy {
-  double pressure = 0.0;    ///< the reference of tolerances, Pa: the confining pressure
-  double tolerance = 1e-3;  ///< of prescribed stresses, over that pressure, at every recorded row
+  double pressure = 0.0;  ///< the reference of tolerances, Pa: the confining pressure
+  double tolerance =
+      1e-3;  ///< of prescribed stresses, over that pressure, at every recorded row; in small changes 2 % of them
   /// The largest component of a displacement gradient of one step; a row may take several steps.
   double largest_increment = 1e-3;
   int iterations = 12;  ///< of Newton's method in a step
@@ -31,7 +32,7 @@ struct Row {
   double volume = 1.0;               ///< over that at the last zero
   double total_volume = 1.0;         ///< over that at the start of the test
   Vector6 stress = Vector6::Zero();  ///< effective, Pa; zero where the material does not tell
-  double pore_pressure = 0.0;        ///< Pa, counted from the start of the test
+  double pore_pressure = 0.0;        ///< Pa, of the undrained stages up to here; 0 in a drained one
   double residual = 0.0;             ///< largest error of a prescribed stress, over the confining pressure
   int steps = 0;                     ///< that the row took
   int evaluations = 0;               ///< of the material

@@ -14,7 +14,7 @@ namespace {
 using Kind = Constraint::Kind;
 using Way = Constraint::Way;
 
-/// s33 - s11 - b (s22 - s11): zero where the intermediate stress is at b between the lateral and the axial one.
+/// s33 - s11 - b (s22 - s11): zero where s33 is at b between the lateral and the axial stress.
 Vector6 weights_of_ratio(double b) {
   Vector6 weights = Vector6::Zero();
   weights(k33) = 1.0;
@@ -89,7 +89,9 @@ void true_triaxial(Stage& stage, const NamedTest& test, Room room) {
   }
   stage.constraints.push_back(drive);
   add_lateral_stresses(stage, test, false);
-  stage.constraints.push_back(sum_of_stresses("b", weights_of_ratio(test.ratio), Way::reach, 0.0));
+  // In extension the axial stress is the least.
+  const double place = test.drive.amount < 0.0 ? 1.0 - test.ratio : test.ratio;
+  stage.constraints.push_back(sum_of_stresses("b", weights_of_ratio(place), Way::reach, 0.0));
 }
 
 void oedometer(Stage& stage, const NamedTest& test, Room) {

@@ -135,6 +135,17 @@ Stage completed(Stage stage, Room room) {
   return stage;
 }
 
+bool extends(const Stage& stage, bool before) {
+  for (const Constraint& constraint : stage.constraints) {
+    if (constraint.way != Constraint::Way::reach || constraint.amount == 0.0) continue;
+    const bool is_stress = constraint.kind == Constraint::Kind::stress;
+    const bool is_deviator = is_stress && constraint.weights(k22) < 0.0 && constraint.weights(k11) > 0.0;
+    if (is_deviator) return constraint.amount < 0.0;
+    if (!is_stress && constraint.place == k22) return constraint.amount > 0.0;
+  }
+  return before;
+}
+
 bool drives_shear(const Stage& stage) {
   return std::ranges::any_of(stage.constraints, [](const Constraint& constraint) {
     const bool moves = constraint.way == Constraint::Way::reach || constraint.way == Constraint::Way::cycle;

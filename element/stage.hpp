@@ -42,7 +42,7 @@ struct Stage {
   int cycles = 0;     ///< of the cycled conditions; 0: nothing is cycled
   bool zero = false;  ///< strains are counted anew from its start
   /// Where the volume is kept: the normal component whose total stress stays, so that the water carries its change; -1:
-  /// the pore pressure stays as it is.
+  /// drained, without pore pressure.
   int pore = -1;
 };
 
@@ -58,6 +58,9 @@ std::vector<std::string> faults(const Stage& stage, Room room);
 /// The stage with a condition for each strain that the material has: a component without one keeps its strain.
 /// faults() must be empty.
 Stage completed(Stage stage, Room room);
+
+/// Whether the axial stress (axis 2) is the least behind the stage. @param before the same, before it
+bool extends(const Stage& stage, bool before);
 
 /// Whether the stage drives a shear strain or a shear stress away from zero.
 bool drives_shear(const Stage& stage);

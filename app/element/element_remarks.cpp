@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/remarks/few_grains.hpp"
 #include "common/elementary_functions.hpp"
@@ -65,58 +66,76 @@ void look_at_stiffness(const Entry& material, double pressure, Remarks& remarks)
                        place.fault(fmt::format("material: E is {:.4g} kPa", 1e-3 * *young)), remedy});
 }
 
-/// States that a test brings a cone to.
-enum class TestState { compression, extension, plane_strain };
+/// A state that a test brings a cone to.
+struct TestState {
+  std::optional<double> b;  ///< (s2 - s3) / (s1 - s3) there; nothing: plane strain
+  /// For messages, and with "_" the value of `match` where there is one.
+  [[nodiscard]] std::string name() const {
+    if (!b) return "plane strain";
+    if (has_match()) return *b == 0.0 ? "triaxial compression" : "triaxial extension";
+    return fmt::format("a test with b = {:.3g}", *b);
+  }
+  [[nodiscard]] bool has_match() const { return !b || *b == 0.0 || *b == 1.0; }
+};
 
-/// Of a stage that loads axis 2 under lateral stresses that stay; nothing of other stages.
-std::optional<TestState> state_of(const element::Stage& stage) {
+/// Of a stage that loads axis 2 while lateral or mean stresses stay, or the volume; empty of other stages. Cycles have two.
+std::vector<TestState> states_of(const element::Stage& stage) {
   using element::Constraint;
-  if (stage.name == "simple_shear") return TestState::plane_strain;
+  if (stage.name == "simple_shear") return {TestState{}};
   const Constraint* axial = nullptr;
-  bool lateral_stays = stage.pore >= 0;
-  bool third_is_stress = false;
+  bool others_stay = stage.pore >= 0;
+  std::optional<double> place;  // of s33 between s11 and s22
   for (const Constraint& constraint : stage.constraints) {
     const bool is_stress = constraint.kind == Constraint::Kind::stress;
     const bool is_held = constraint.way == Constraint::Way::hold;
-    if (!is_held && constraint.amount != 0.0 &&
-        (constraint.place == k22 || (is_stress && constraint.place < 0)))
-      axial = &constraint;
-    if (constraint.place == k11 && is_stress && is_held) lateral_stays = true;
-    if (constraint.place == k33 && is_stress) third_is_stress = true;
-    if (constraint.place < 0 && is_stress && constraint.amount == 0.0) third_is_stress = true;
+    const element::Vector6& weights = constraint.weights;
+    const bool is_deviator = constraint.place < 0 && is_stress && weights(k11) > 0.0 && weights(k22) < 0.0;
+    if (!is_held && constraint.amount != 0.0 && (constraint.place == k22 || is_deviator)) axial = &constraint;
+    if (is_stress && is_held && (constraint.place == k11 || constraint.name == "p")) others_stay = true;
+    if (constraint.place == k33 && is_stress) place = 0.0;
+    if (constraint.place < 0 && is_stress && weights(k33) == 1.0) place = 0.0 - weights(k22);
   }
-  if (axial == nullptr || !lateral_stays) return {};
-  if (!third_is_stress) return TestState::plane_strain;
+  if (axial == nullptr || !others_stay) return {};
+  if (!place) return {TestState{}};
+  const TestState compression{*place};
+  const TestState extension{1.0 - *place};
+  if (axial->way == Constraint::Way::cycle) return {compression, extension};
   // A deviator counts compression as positive, a component tension.
-  const bool is_deviator = axial->place < 0;
-  return (axial->amount > 0.0) == is_deviator || axial->way == Constraint::Way::cycle ? TestState::compression
-                                                                                      : TestState::extension;
+  return {(axial->amount > 0.0) == (axial->place < 0) ? compression : extension};
 }
 
-const char* name_of(TestState state) {
-  switch (state) {
-    case TestState::compression:
-      return "triaxial compression";
-    case TestState::extension:
-      return "triaxial extension";
-    case TestState::plane_strain:
-      break;
-  }
-  return "plane strain";
-}
+/// 1 / sin(angle) = root / M + rest: q = M p in principal stresses, q = sqrt(1 - b + b^2) (s1 - s3).
+struct AngleAtRatio {
+  explicit AngleAtRatio(double b) : root(2.0 * std::sqrt(1.0 - b + b * b)), rest((1.0 - 2.0 * b) / 3.0) {}
+  double root;
+  double rest;
+};
 
 /// The friction angle of a cone in a state, degrees; nothing where it has no limit there.
-std::optional<double> angle_in(const fem::FrozenCone& cone, TestState state) {
-  switch (state) {
-    case TestState::compression:  // the inverse of M = 6 sin / (3 - sin)
-      return arc_sine(3.0 * cone.friction / (6.0 + cone.friction)) * 180.0 / std::numbers::pi;
-    case TestState::extension:
-      return fem::angle_in_extension(cone);
-    case TestState::plane_strain:
-      break;
+std::optional<double> angle_in(const fem::FrozenCone& cone, const TestState& state) {
+  if (state.b) {
+    const AngleAtRatio at(*state.b);
+    const double inverse = at.root / cone.friction + at.rest;
+    if (!(inverse > 1.0)) return std::nullopt;
+    return arc_sine(1.0 / inverse) * 180.0 / std::numbers::pi;
   }
   const auto strength = fem::plane_strain_from_cone(cone);
   return strength ? std::optional(strength->friction_angle) : std::nullopt;
+}
+
+/// The remedy: the keys of a cone that has an angle in a state. @param degrees of that angle
+std::string remedy_for(const TestState& state, double degrees, bool in_cycles) {
+  std::string word = state.name();
+  std::ranges::replace(word, ' ', '_');
+  if (state.has_match() && in_cycles)
+    return fmt::format("match: {} (a cone has its angle on one side of the cycles alone)", word);
+  if (state.has_match()) return fmt::format("match: {}", word);
+  // The cone through this state, as the angle that it has in triaxial compression.
+  const AngleAtRatio at(*state.b);
+  const double slope = at.root / (1.0 / sine(degrees * std::numbers::pi / 180.0) - at.rest);
+  const auto there = angle_in({slope, 0.0, 0.0}, TestState{0.0});
+  if (!there) return "a cone has this angle in no triaxial test; take grains";
+  return fmt::format("match: triaxial_compression with friction_angle: {:.4g} deg has it", *there);
 }
 
 /// A cone has its friction angle in the states of `match` alone, by default in plane strain. Where that is given, a strength far above
@@ -143,24 +162,24 @@ void look_at_cone(const Entry& material, const ElementSpecification& specificati
   const double degrees = kOneRadian * *friction;
   const fem::FrozenCone cone = fem::matched_cone({degrees, kOneRadian * dilatancy, 0.0}, match->second);
   for (const element::Stage& stage : specification.stages) {
-    const auto state = state_of(stage);
-    if (!state) continue;
-    const auto there = angle_in(cone, *state);
-    if (there && std::abs(*there - degrees) <= kNearAngle * degrees) continue;
-    if (given != nullptr && there && *there < kFarAngle * degrees) continue;
-    std::string word = name_of(*state);
-    std::ranges::replace(word, ' ', '_');
-    remarks.push_back(
-        {Rank::doubtful, there ? std::max(degrees / *there, *there / degrees) : 10.0,
-         material.find("friction_angle")
-             ->fault(
-                 fmt::format("material: {:.4g} deg hold {}{}; in {} this cone has {}", degrees,
-                             given == nullptr ? "in plane strain, the default here" : "where 'match' says: ",
-                             given == nullptr ? "" : given->text, name_of(*state),
-                             there ? fmt::format("{:.4g} deg", *there) : std::string("no limit"))),
-         given == nullptr ? fmt::format("match: {}; or say 'match: plane_strain' if it is meant", word)
-                          : fmt::format("match: {}", word)});
-    return;
+    const std::vector<TestState> states = states_of(stage);
+    for (const TestState& state : states) {
+      const auto there = angle_in(cone, state);
+      if (there && std::abs(*there - degrees) <= kNearAngle * degrees) continue;
+      if (given != nullptr && there && *there < kFarAngle * degrees) continue;
+      const std::string remedy = remedy_for(state, degrees, states.size() > 1 && given != nullptr);
+      remarks.push_back(
+          {Rank::doubtful, there ? std::max(degrees / *there, *there / degrees) : 10.0,
+           material.find("friction_angle")
+               ->fault(fmt::format(
+                   "material: {:.4g} deg hold {}{}; in {} this cone has {}", degrees,
+                   given == nullptr ? "in plane strain, the default here" : "where 'match' says: ",
+                   given == nullptr ? "" : given->text, state.name(),
+                   there ? fmt::format("{:.4g} deg", *there) : std::string("no limit"))),
+           given == nullptr ? fmt::format("{}; or say 'match: plane_strain' if it is meant", remedy)
+                            : remedy});
+      return;
+    }
   }
 }
 

@@ -43,7 +43,7 @@ const std::vector<double>& row_at(const ElementResult& result, const ElementCurv
   const auto angle = [column](const std::vector<double>& row) {
     return std::isnan(row[column]) ? -HUGE_VAL : row[column];
   };
-  return *std::ranges::max_element(curve.rows, {}, angle);
+  return *std::ranges::max_element(rows_of_test(result, curve), {}, angle);
 }
 
 /// Whether the largest angle is that of the last row. A plateau is as good as a peak: the tolerance of stresses makes its angles
@@ -54,10 +54,10 @@ bool rises_to_end(const ElementResult& result, const ElementCurve& curve) {
   const auto column = static_cast<std::size_t>(std::ranges::find(result.columns, "friction_angle_deg") -
                                                result.columns.begin());
   // The last tenth of the rows is left out: many rows rise by less than that each.
-  const std::size_t left_out = std::max<std::size_t>(1, curve.rows.size() / 10);
+  const auto rows = rows_of_test(result, curve);
+  const std::size_t left_out = std::max<std::size_t>(1, rows.size() / 10);
   double before = 0.0;
-  for (std::size_t k = 0; k + left_out < curve.rows.size(); ++k)
-    before = std::fmax(before, curve.rows[k][column]);
+  for (std::size_t k = 0; k + left_out < rows.size(); ++k) before = std::fmax(before, rows[k][column]);
   return curve.rows.back()[column] > (1.0 + kPlateau) * before;
 }
 
@@ -70,9 +70,27 @@ bool has_peaks(const EnvelopeOfSpecimen& envelope) {
   return std::ranges::none_of(envelope.without_peak, [](bool missing) { return missing; });
 }
 
-/// A line for each test without a peak.
-std::vector<std::string> lines_without_peak(const Envelopes& all) {
+/// Whether the centres differ: by less than a hundredth of their mean, a line along the circles would be chance.
+bool are_apart(std::span<const StressCircle> circles) {
+  constexpr double kApart = 0.01;
+  if (circles.empty()) return false;
+  const auto [least, largest] = std::ranges::minmax(circles, {}, &StressCircle::centre);
+  const double mean = 0.5 * (least.centre() + largest.centre());
+  return largest.centre() - least.centre() > kApart * std::abs(mean);
+}
+
+/// A line for each envelope without one, and for each test without a peak.
+std::vector<std::string> lines_on_missing(const Envelopes& all) {
   std::vector<std::string> lines;
+  for (const auto& [state, envelopes] : all.at_states)
+    for (const EnvelopeOfSpecimen& envelope : envelopes)
+      if (!envelope.line)
+        lines.push_back(fmt::format(
+            "{}, {}: no line: {}", envelope.name, state_name(state, has_peaks(envelope)),
+            envelope.circles.size() < 2 ? "it takes two tests that came to their end"
+            : are_apart(envelope.circles)
+                ? "the radii grow as much as the centres, and no friction angle does that"
+                : "the centres of the circles differ by less than 1 %; let the tests fail at different stresses"));
   for (const auto& [state, envelopes] : all.at_states)
     for (const EnvelopeOfSpecimen& envelope : envelopes)
       for (std::size_t k = 0; k < envelope.circles.size(); ++k)
@@ -147,7 +165,7 @@ std::optional<FailureLine> failure_line(std::span<const StressCircle> circles) {
     square += (circle.centre() - centre) * (circle.centre() - centre);
     product += (circle.centre() - centre) * (circle.radius() - radius);
   }
-  if (circles.size() < 2 || !(square > 0.0)) return {};
+  if (circles.size() < 2 || !are_apart(circles)) return {};
   const double sine = product / square;
   if (!(std::abs(sine) < 1.0)) return {};
   FailureLine line;
@@ -229,7 +247,7 @@ std::string envelope_summary(const Envelopes& all) {
                         fmt::format("{} +- {:.2f}", rounded(angle, 2), half_angle),
                         fmt::format("{} +- {:.3f}", rounded(1e-3 * cohesion, 3), 1e-3 * half_cohesion));
   }
-  for (const std::string& line : lines_without_peak(all)) text += line + '\n';
+  for (const std::string& line : lines_on_missing(all)) text += line + '\n';
   return text;
 }
 
@@ -271,7 +289,7 @@ std::string envelope_charts(const Envelopes& all) {
                         state == FailureState::peak && !has_peak ? " angle" : "") +
             chart({.title = "effective normal stress, kPa"}, {.title = "shear stress, kPa"}, series, true);
   }
-  for (const std::string& line : lines_without_peak(all)) html += fmt::format("<p>{}</p>\n", escaped(line));
+  for (const std::string& line : lines_on_missing(all)) html += fmt::format("<p>{}</p>\n", escaped(line));
   return html;
 }
 

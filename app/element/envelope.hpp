@@ -26,7 +26,7 @@ struct FailureLine {
 };
 
 /// The line by least squares of the radii: r = cohesion cos(angle) + centre sin(angle).
-/// @returns nothing where there are fewer than two different centres, or no angle fits
+/// @returns nothing where there are fewer than two circles, their centres differ by less than 1 %, or no angle fits
 std::optional<FailureLine> failure_line(std::span<const StressCircle> circles);
 
 /// The tests of one specimen under several pressures, and the line along their circles.

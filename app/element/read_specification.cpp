@@ -43,8 +43,27 @@ bool is_same_grain(const Grain& one, const Grain& other) {
          one.mass == other.mass;
 }
 
-/// Whether two packings are copies: the same grains at the same places of the same box.
+/// In ascending order.
+std::vector<double> radii_of_grains(const Packing& packing) {
+  std::vector<double> radii;
+  for (const Grain& grain : packing.grains) radii.push_back(grain.radius);
+  std::ranges::sort(radii);
+  return radii;
+}
+
+/// Whether the sizes tell the seed: most grains have one of their own. Grains of one size, or of a few, do not.
+bool are_drawn(const std::vector<double>& sorted_radii) {
+  constexpr std::size_t kFewSizes = 10;
+  std::vector<double> sizes = sorted_radii;
+  sizes.erase(std::ranges::unique(sizes).begin(), sizes.end());
+  return sizes.size() >= kFewSizes && 2 * sizes.size() > sorted_radii.size();
+}
+
+/// Whether two packings are copies, settled or made anew as they may be: grains of the same drawn sizes; or else the same grains
+/// at the same places of the same box.
 bool are_copies(const Packing& one, const Packing& other) {
+  const std::vector<double> radii = radii_of_grains(one);
+  if (are_drawn(radii)) return radii == radii_of_grains(other);
   return one.box == other.box && one.thickness == other.thickness &&
          std::ranges::equal(one.grains, other.grains, is_same_grain);
 }
@@ -159,9 +178,11 @@ void read_stages(Section& top, ElementSpecification& specification, Faults& faul
   if (const Entry* const list = top.find("stages")) {
     if (list->kind != Entry::Kind::sequence || list->items.empty())
       top.fault("stages", "stages: expected a list of stages, each a named test or components");
+    bool extended = false;
     for (std::size_t k = 0; k < list->items.size(); ++k) {
       Section section(list->items[k], fmt::format("stage {}", k + 1), faults);
-      stages.push_back(read_stage(section, specification.room));
+      stages.push_back(read_stage(section, specification.room, extended));
+      extended = element::extends(stages.back(), extended);
       section.finish();
     }
   } else {

@@ -126,7 +126,14 @@ element::Stage read_named(Section& section, element::Room room) {
   }
   if (kind.can_be_undrained)
     test.undrained = section.choice_or("drainage", {"drained", "undrained"}, "drained") == "undrained";
-  if (test.name == "true_triaxial") test.ratio = read_ratio(section);
+  if (test.name == "true_triaxial") {
+    test.ratio = read_ratio(section);
+    if (test.drive.cycles > 0 && std::abs(test.ratio - 0.5) > 1e-9)
+      section.fault(
+          section.find("lode") != nullptr ? "lode" : "b",
+          "true_triaxial: the axial stress of a cycle is the largest, then the least, and b would turn into "
+          "1 - b; cycles need b: 0.5 (lode: 30 deg)");
+  }
   test.rows = section.whole_or("rows", 1, test.drive.cycles > 0 ? kRowsOfCycle * test.drive.cycles : kRows);
   if (test.drive.cycles > 0 && test.rows % (4 * test.drive.cycles) != 0)
     section.fault("rows",
@@ -156,7 +163,7 @@ double range_of_deviator(double b) {
   return std::sqrt(1.0 - b + b * b);
 }
 
-void read_sums(Section& section, element::Room room, element::Stage& stage) {
+void read_sums(Section& section, element::Room room, bool extended, element::Stage& stage) {
   std::vector<Constraint>& all = stage.constraints;
   if (section.find("volume") != nullptr) {
     if (!is_word(section.find("volume"), "hold"))
@@ -167,19 +174,23 @@ void read_sums(Section& section, element::Room room, element::Stage& stage) {
   if (section.find("p") != nullptr)
     all.push_back(aimed(section, "p",
                         element::sum_of_stresses("p", element::weights_of_pressure(room), Way::hold), 1.0));
-  element::Vector6 deviator = element::weights_of_deviator(room);
+  const auto place_of_ratio = static_cast<std::ptrdiff_t>(all.size());
+  if (section.find("q") != nullptr)
+    all.push_back(aimed(section, "q",
+                        element::sum_of_stresses("q", element::weights_of_deviator(room), Way::hold), 1.0));
   if (section.find("b") != nullptr || section.find("lode") != nullptr) {
     const double b = read_ratio(section);
     element::Vector6 weights = element::Vector6::Zero();
-    weights.head<3>() << b - 1.0, -b, 1.0;
-    all.push_back(element::sum_of_stresses(section.find("b") != nullptr ? "b" : "lode", weights, Way::reach));
-    deviator.head<3>() << range_of_deviator(b), -range_of_deviator(b), 0.0;
+    const double place = element::extends(stage, extended) ? 1.0 - b : b;  // of s33 between s11 and s22
+    weights.head<3>() << place - 1.0, -place, 1.0;
+    if (section.find("q") != nullptr)
+      all.back().weights.head<3>() << range_of_deviator(b), -range_of_deviator(b), 0.0;
+    all.insert(all.begin() + place_of_ratio,
+               element::sum_of_stresses(section.find("b") != nullptr ? "b" : "lode", weights, Way::reach));
   }
-  if (section.find("q") != nullptr)
-    all.push_back(aimed(section, "q", element::sum_of_stresses("q", deviator, Way::hold), 1.0));
 }
 
-element::Stage read_components(Section& section, element::Room room) {
+element::Stage read_components(Section& section, element::Room room, bool extended) {
   element::Stage stage;
   stage.name = section.text_or("name", "components");
   for (int place = 0; place < 6; ++place) {
@@ -191,7 +202,7 @@ element::Stage read_components(Section& section, element::Room room) {
       stage.constraints.push_back(aimed(section, key, element::component(kind, place, Way::hold), 1.0));
     }
   }
-  read_sums(section, room, stage);
+  read_sums(section, room, extended, stage);
   stage.rows = section.whole_or("rows", 1, kRows);
   if (stage.constraints.empty())
     section.fault(
@@ -215,9 +226,9 @@ double read_pressure(Section& section, const std::string& key, Limit limit) {
   return section.quantity(key, Dimension::pressure, limit);
 }
 
-element::Stage read_stage(Section& section, element::Room room) {
+element::Stage read_stage(Section& section, element::Room room, bool extended) {
   element::Stage stage =
-      section.find("test") != nullptr ? read_named(section, room) : read_components(section, room);
+      section.find("test") != nullptr ? read_named(section, room) : read_components(section, room, extended);
   stage.zero = section.choice_or("zero", {"yes", "no"}, "no") == "yes";
   return stage;
 }

@@ -11,7 +11,7 @@ namespace polargrain::app {
 double read_pressure(coupler::Section& section, const std::string& key, coupler::Limit limit);
 
 /// Reads one stage: a named test (`test`) with its parameters, or components (`e22: -5 %`, `s11: hold`, ...). Calls
-/// nothing of the section's finish().
-element::Stage read_stage(coupler::Section& section, element::Room room);
+/// nothing of the section's finish(). @param extended the axial stress is the least before it
+element::Stage read_stage(coupler::Section& section, element::Room room, bool extended = false);
 
 }  // namespace polargrain::app

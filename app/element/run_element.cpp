@@ -134,7 +134,7 @@ CurveFigures figures_of(const ElementResult& result, const ElementCurve& curve) 
     const double shear = row[column_named(result, "e12")];
     return std::abs(shear) > std::abs(axial) ? shear : axial;
   };
-  for (const auto& row : curve.rows) {
+  for (const auto& row : rows_of_test(result, curve)) {
     if (!(row[angle] > figures.friction_angle)) continue;
     figures.friction_angle = row[angle];
     figures.strain_at_peak = strain_of(row);
@@ -146,6 +146,14 @@ CurveFigures figures_of(const ElementResult& result, const ElementCurve& curve) 
 
 }  // namespace
 
+std::span<const std::vector<double>> rows_of_test(const ElementResult& result, const ElementCurve& curve) {
+  const std::span all(curve.rows);
+  const std::size_t stage = column_named(result, "stage");
+  if (stage == result.columns.size()) return all;
+  const auto first = std::ranges::find_if(all, [stage](const auto& row) { return row[stage] > 0.0; });
+  return first == all.end() ? all : all.subspan(static_cast<std::size_t>(first - all.begin()));
+}
+
 std::vector<ElementResult> run_elements(std::span<const ElementSpecification> specifications, int workers,
                                         bool trust_scripts) {
   std::vector<ElementResult> results(specifications.size());
@@ -154,8 +162,10 @@ std::vector<ElementResult> run_elements(std::span<const ElementSpecification> sp
     const ElementSpecification& specification = specifications[k];
     if (specification.material != nullptr) {
       results[k] = run_material(specification, workers, trust_scripts);
+      results[k].stages = specification.stages;
       continue;
     }
+    results[k].stages = specification.stages;
     results[k].columns = element_columns(form_of(specification), names_of_columns<CellDiagnostics>());
     results[k].curves.resize(specification.cells.size());
     for (std::size_t packing = 0; packing < specification.cells.size(); ++packing)

@@ -14,7 +14,11 @@ namespace polargrain::app {
 struct ElementResult {
   std::vector<std::string> columns;
   std::vector<ElementCurve> curves;
+  std::vector<element::Stage> stages = {};  ///< the first is the consolidation
 };
+
+/// The rows of a curve without those of the consolidation; all where the test did not come further.
+std::span<const std::vector<double>> rows_of_test(const ElementResult& result, const ElementCurve& curve);
 
 /// A packing that is not at rest under its script, or cells that cannot be set up with it, in the engine's words.
 class NotAtRest : public RunError {

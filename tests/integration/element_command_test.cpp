@@ -168,8 +168,62 @@ stages:
   // dp over K of the isotropic stage, from the void ratio given.
   const double bulk = 50e6 / (3.0 * (1.0 - 0.6));
   EXPECT_NEAR(table.numbers("void_ratio")[7], 1.7 * (1.0 - 100e3 / bulk) - 1.0, 1e-12);
-  // After the cycles at constant volume the elastic law has no pore pressure left.
-  EXPECT_NEAR(last("pore_pressure_Pa"), 0.0, 1e-2);
+  // After the cycles at constant volume the elastic law has no pore pressure left; drained stages have none.
+  EXPECT_NEAR(table.numbers("pore_pressure_Pa")[table.rows() - 6], 0.0, 1e-2);
+  EXPECT_EQ(last("pore_pressure_Pa"), 0.0);
+}
+
+const std::string kCone = R"(pressure: 100 kPa
+material: {model: elastoplastic, E: 50 MPa, nu: 0.3, Gc: 10 MPa, lc: 1 mm, match: triaxial_compression,
+           friction_angle: 35 deg, dilatancy_angle: 5 deg, cohesion: 0.1 kPa}
+)";
+
+TEST_F(ElementCommand, UndrainedFiguresAreOfAllUndrainedStages) {
+  const Outcome outcome = run_text(kCone + R"(stages:
+  - {test: triaxial, drainage: undrained, axial_strain: 1 %, rows: 50}
+  - {test: triaxial, drainage: undrained, deviator: 0 kPa, rows: 50}
+  - {test: triaxial, axial_strain: 1 %, rows: 2}
+)");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable table(scratch.path() / "element.csv");
+  const std::vector<double> pore_pressure = table.numbers("pore_pressure_Pa");
+  EXPECT_EQ(pore_pressure.back(), 0.0);
+  // Loading gives the largest u and starts from the least p', as the table has them.
+  const std::string figures =
+      fmt::format(" {:>16.3f} {:>16.3f}", 1e-3 * *std::ranges::max_element(pore_pressure), 100.0);
+  EXPECT_NE(outcome.out.find(figures), std::string::npos) << figures << "\n" << outcome.out;
+}
+
+TEST_F(ElementCommand, TheIntermediateStressIsWhereBSays) {
+  for (const char* const stage :
+       {"b: 0.3, q: -60 kPa, p: hold", "b: 0.3, q: 60 kPa, p: hold", "b: 0.3, e22: 0.1 %, s11: hold",
+        "test: true_triaxial, b: 0.3, axial_strain: -0.1 %",
+        "test: true_triaxial, b: 0.3, deviator: -60 kPa"}) {
+    const Outcome outcome =
+        run_text(kLaw + "tolerance: 1e-9\nstages: [{" + stage + ", rows: 4}, {p: hold, q: hold, b: 0.3}]\n");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    // Stresses of some 50 kPa are met to 1e-9 of 100 kPa, at the end of the first stage and behind the second.
+    const CsvTable table(scratch.path() / "element.csv");
+    for (const std::size_t row : {std::size_t{6}, table.rows() - 1})
+      EXPECT_NEAR(table.figure(row, table.column("b")), 0.3, 1e-7) << stage;
+  }
+  std::filesystem::remove(scratch.path() / "element.csv");
+  expect_fault(
+      kLaw + "test: true_triaxial\nb: 0.3\ncycles: 2\namplitude: 0.1 %\n",
+      "spec.yaml:4: element test: true_triaxial: the axial stress of a cycle is the largest, then the least");
+}
+
+TEST_F(ElementCommand, TestsThatFailAtOneStressHaveNoEnvelope) {
+  std::string text = kCone;
+  text.replace(text.find("100 kPa"), 7, "[50 kPa, 200 kPa]");
+  const Outcome outcome = run_text(
+      text +
+      "stages:\n  - {test: isotropic, to: 200 kPa, rows: 2}\n  - {test: triaxial, axial_strain: 5 %, rows: 8}\n");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(
+      outcome.out.find("elastoplastic, end: no line: the centres of the circles differ by less than 1 %"),
+      std::string::npos)
+      << outcome.out;
 }
 
 TEST_F(ElementCommand, AMaterialOfDiscsIsMeasuredInItsPlane) {
@@ -246,6 +300,31 @@ TEST_F(ElementCommand, CopiesAreNoIndependentSamples) {
   EXPECT_EQ(run(test + "p1.csv p2.csv cell.in").status, 0);
 }
 
+/// Grains at rest on a lattice of 1 m, which a seed draws or not.
+void write_lattice(const std::filesystem::path& file, double least, double growth, double aside) {
+  std::string text = "# cell xx=4 xy=0 yx=0 yy=3 z=0.1\nid,x,y,r,mass,Izz\n";
+  for (int k = 0; k < 12; ++k)
+    text += fmt::format("{},{},{},{:.17g},1,0.08\n", k + 1, 0.5 + k % 4 + aside, 0.5 + k / 4,
+                        least + growth * (k * 5 % 12));
+  write(file, text);
+}
+
+TEST_F(ElementCommand, SettledPackingsOfOneSeedAreNoIndependentSamples) {
+  write_lattice(scratch.path() / "p1.csv", 0.40, 0.002, 0.0);
+  write_lattice(scratch.path() / "settled.csv", 0.40, 0.002, 0.01);
+  write_lattice(scratch.path() / "seed2.csv", 0.41, 0.002, 0.0);
+  write_lattice(scratch.path() / "alike.csv", 0.42, 0.0, 0.0);  // of one size: places tell
+  write_lattice(scratch.path() / "moved.csv", 0.42, 0.0, 0.01);
+  const std::string test = "--test oedometer --pressure 100kPa --set axial_strain=1% --set rows=2 ";
+  const Outcome outcome = run(test + "p1.csv settled.csv cell.in");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("settled has the grains of p1; the two are no independent samples"),
+            std::string::npos)
+      << outcome.errors;
+  for (const char* const others : {"p1.csv seed2.csv", "alike.csv moved.csv"})
+    EXPECT_EQ(run(test + others + " cell.in").status, 0) << others;
+}
+
 TEST_F(ElementCommand, CompanionsOfAnOlderRunAreRemoved) {
   write_packings(scratch.path(), 2);
   const std::string test = "--test biaxial --set axial_strain=0.1% --set rows=2 -o tw ";
@@ -294,7 +373,7 @@ TEST_F(ElementCommand, RemarksComeBeforeTheTest) {
   EXPECT_TRUE(few.out.starts_with("wrong: polargrain element: packing 'p1': the box of grains is"))
       << few.out;
   const std::string rest =
-      "test: triaxial\naxial_strain: 1 %\nrows: 2\nmaterial:\n  model: elastoplastic\n  friction_angle: 30 deg\n"
+      "test: triaxial\naxial_strain: 1 %\nrows: 4\nmaterial:\n  model: elastoplastic\n  friction_angle: 30 deg\n"
       "  dilatancy_angle: 0 deg\n  cohesion: 1 kPa\n  nu: 0.3\n  Gc: 10 MPa\n  lc: 1 mm\n";
   const Outcome cone = run_text("pressure: 100 kPa\n" + rest + "  E: 50 MPa\n");
   ASSERT_EQ(cone.status, 0) << cone.errors;
@@ -311,9 +390,16 @@ TEST_F(ElementCommand, RemarksComeBeforeTheTest) {
     text.replace(text.find("triaxial\naxial_strain: 1 %"), 26, test);
     return run_text("pressure: 100 kPa\n" + text + "  E: 50 MPa\n  match: " + match + "\n").out;
   };
-  for (const auto& [test, state] : {std::pair{"triaxial\naxial_strain: -1 %", "triaxial extension"},
-                                    {"biaxial\naxial_strain: 1 %", "plane strain"},
-                                    {"simple_shear\nshear_strain: 1 %", "plane strain"}})
+  for (const auto& [test, state] :
+       {std::pair{"triaxial\naxial_strain: -1 %", "triaxial extension"},
+        {"biaxial\naxial_strain: 1 %", "plane strain"},
+        {"simple_shear\nshear_strain: 1 %", "plane strain"},
+        // M = 1.2: sin = 3 M / (6 - M) in extension, M / sqrt(3) at b = 0.5
+        {"triaxial\ncycles: 1\namplitude: 0.1 %", "triaxial extension this cone has 48.59"},
+        {"constant_p\naxial_strain: -1 %", "triaxial extension this cone has 48.59"},
+        {"true_triaxial\nb: 0.5\naxial_strain: 1 %",
+         "a test with b = 0.5 this cone has 43.85 deg; match: triaxial_compression with "
+         "friction_angle: 22.23 deg"}})
     EXPECT_NE(of_test(test, "triaxial_compression")
                   .find(std::string("30 deg hold where 'match' says: triaxial_compression; in ") + state),
               std::string::npos)

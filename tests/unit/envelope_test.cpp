@@ -37,6 +37,12 @@ TEST(Envelope, OfOneCircleOrNoneOfItsKindIsNoLine) {
   EXPECT_FALSE(failure_line(one));
   const std::array same{one[0], one[0]};
   EXPECT_FALSE(failure_line(same));
+  // Centres within 1 % of each other: the line along them would have 30 deg by chance.
+  const std::array close{StressCircle{150e3, 50e3}, StressCircle{151.2e3, 50.4e3}};
+  EXPECT_FALSE(failure_line(close));
+  const std::array apart{StressCircle{150e3, 50e3}, StressCircle{153e3, 51e3}};
+  ASSERT_TRUE(failure_line(apart));
+  EXPECT_NEAR(failure_line(apart)->friction_angle / kDegree, 30.0, 1e-9);
   const std::array steep{StressCircle{60e3, 50e3}, StressCircle{900e3, 50e3}};  // dr / dcentre = 1
   EXPECT_FALSE(failure_line(steep));
 }
@@ -61,6 +67,14 @@ TEST(Envelope, OfDrySandHasNoNegativeCohesion) {
   EXPECT_EQ(text.find("-0.0"), std::string::npos) << text;
   EXPECT_NE(text.find("35.00"), std::string::npos) << text;
   EXPECT_NE(envelope_charts(envelopes).find("sand: 35.00 deg, 0.00 kPa"), std::string::npos);
+}
+
+/// @param pores of the stages: -1 is drained
+ElementResult with_stages(const std::vector<int>& pores) {
+  ElementResult result;
+  result.columns = {"stage", "row", "axial_strain", "e12", "p_Pa", "friction_angle_deg", "pore_pressure_Pa"};
+  for (const int pore : pores) result.stages.emplace_back().pore = pore;
+  return result;
 }
 
 ElementCurve undrained(const std::vector<double>& mean_stress) {
@@ -140,8 +154,7 @@ TEST(ElementTable, ShearGivesTheDeviatorNoSign) {
 }
 
 TEST(Undrained, PhaseTransformationIsWhereTheMeanStressTurns) {
-  ElementResult result;
-  result.columns = {"stage", "row", "axial_strain", "e12", "p_Pa", "friction_angle_deg", "pore_pressure_Pa"};
+  ElementResult result = with_stages({-1, element::k11});
   const UndrainedFigures dense = undrained_figures(result, undrained({100e3, 80e3, 60e3, 70e3, 150e3}));
   EXPECT_TRUE(dense.is_undrained);
   EXPECT_DOUBLE_EQ(dense.least_mean_stress, 60e3);
@@ -157,12 +170,61 @@ TEST(Undrained, PhaseTransformationIsWhereTheMeanStressTurns) {
   EXPECT_DOUBLE_EQ(dilates.strain_at_least, 0.0);
   EXPECT_DOUBLE_EQ(dilates.largest_pore_pressure, 0.0);
   EXPECT_TRUE(std::isnan(dilates.transformation_angle));
-  EXPECT_FALSE(undrained_figures(result, undrained({100e3, 100e3})).is_undrained);
+  EXPECT_FALSE(undrained_figures(with_stages({-1, -1}), undrained({100e3, 100e3})).is_undrained);
+}
+
+TEST(Undrained, ExtremesAreThoseOfAllUndrainedStages) {
+  ElementResult result = with_stages({-1, element::k11, element::k11, -1});
+  ElementCurve curve = undrained({100e3, 60e3, 110e3});  // u: 0, 40, -10 kPa
+  curve.name = "sand";
+  curve.rows.push_back({2.0, 1.0, 0.01, 0.0, 90e3, 15.0, 10e3});
+  curve.rows.push_back({2.0, 2.0, 0.0, 0.0, 80e3, 10.0, 20e3});
+  curve.rows.push_back({3.0, 1.0, 0.05, 0.0, 20e3, 40.0, 0.0});  // drained: its p' does not count
+  result.stages[3].constraints = {
+      element::component(element::Constraint::Kind::stress, element::k11, element::Constraint::Way::hold)};
+  result.curves = {curve};
+  const UndrainedFigures figures = undrained_figures(result, curve);
+  EXPECT_DOUBLE_EQ(figures.largest_pore_pressure, 40e3);
+  EXPECT_DOUBLE_EQ(figures.least_mean_stress, 60e3);
+  EXPECT_DOUBLE_EQ(figures.strain_at_least, 0.01);
+  EXPECT_DOUBLE_EQ(figures.transformation_angle,
+                   21.0);  // the second stage falls from 110 kPa and does not turn
+  EXPECT_FALSE(figures.flows);
+  const std::string text = undrained_summary(result);
+  EXPECT_NE(text.find("sand: drained stage 3 keeps the p' of 80 kPa that the undrained one left of 100 kPa"),
+            std::string::npos)
+      << text;
+  result.stages[3].constraints.clear();  // all stresses are prescribed anew
+  EXPECT_EQ(undrained_summary(result).find("drained stage 3"), std::string::npos);
+}
+
+TEST(ElementSummary, APackingMadeUnderAnotherStressHasNoPeakBeforeTheTest) {
+  std::vector<ElementResult> results;
+  const std::vector<double> pressures{100e3, 200e3};
+  for (const double pressure : pressures) {
+    ElementResult result;
+    result.columns = {"stage",  "row",    "axial_strain",       "volume_strain", "e12",
+                      "s11_Pa", "s22_Pa", "friction_angle_deg", "jumps"};
+    ElementCurve curve;
+    curve.name = "sand";
+    double stage = 0.0;
+    for (const double angle : {40.0, 0.0, 30.0, 25.0}) {
+      const StressCircle circle = at_limit(pressure, angle * kDegree, 0.0);
+      curve.rows.push_back({stage, 1.0, 0.01 * stage, 0.0, 0.0, -circle.least, -circle.largest, angle, 0.0});
+      stage += 1.0;
+    }
+    result.curves = {curve};
+    results.push_back(result);
+  }
+  const std::string text = summary_of(results.front());
+  EXPECT_NE(text.find(" 30.00 "), std::string::npos) << text;
+  EXPECT_EQ(text.find("40.00"), std::string::npos) << text;
+  const Envelopes envelopes = envelopes_of(results, pressures);
+  EXPECT_NEAR(envelopes.at_states.front().second.front().line->friction_angle / kDegree, 30.0, 1e-9);
 }
 
 TEST(Undrained, AnExtremeInTheFirstRowAsksForMoreRows) {
-  ElementResult result;
-  result.columns = {"stage", "row", "axial_strain", "e12", "p_Pa", "friction_angle_deg", "pore_pressure_Pa"};
+  ElementResult result = with_stages({-1, element::k11});
   result.curves = {undrained({100e3, 80e3, 90e3, 150e3})};
   const std::string text = undrained_summary(result);
   EXPECT_NE(text.find("the least p' falls into the first row; the rows are too few to see it"),

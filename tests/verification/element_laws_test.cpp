@@ -187,6 +187,12 @@ TEST(ElementLaws, TrueTriaxialKeepsTheIntermediateStress) {
     // With s11 kept: e22 = (ds22 - nu ds33) / E and ds33 = b ds22.
     EXPECT_STRESS(rows.back().stress(k22) + kPressure,
                   kYoung * rows.back().strain(k22) / (1.0 - kPoisson * b));
+    // In extension the axial stress is the least, and s33 is at 1 - b between s11 and s22.
+    LawPoint other = elastic_point();
+    test.drive.amount = -0.001;
+    const Row last = rows_of(other, test).back();
+    EXPECT_NEAR(measures_of(last.stress, Room::axes).b, b, kRounding);
+    EXPECT_STRESS(last.stress(k22) + kPressure, kYoung * last.strain(k22) / (1.0 - kPoisson * (1.0 - b)));
   }
   EXPECT_NEAR(ratio_of_lode_angle(std::numbers::pi / 6.0), 0.5, 1e-15);
   EXPECT_NEAR(ratio_of_lode_angle(std::numbers::pi / 3.0), 1.0, 1e-15);
@@ -231,6 +237,51 @@ TEST(ElementLaws, CyclesTurnAtTheirAmplitude) {
   const std::vector<Row> stresses = rows_of(other, test);
   EXPECT_STRESS(measures_of(stresses[2].stress, Room::axes).q, 30e3);
   EXPECT_STRESS(measures_of(stresses[54].stress, Room::axes).q, -30e3);
+}
+
+/// A change below the tolerance (100 Pa here) still moves the point: the strain is q / E within 2 %, the share of a small
+/// change that counts as met.
+TEST(ElementLaws, SmallStressesMoveThePoint) {
+  constexpr double kShare = 0.02;
+  NamedTest test = named("triaxial", 0.0, 40);
+  test.drive = {true, 80.0, 1};
+  LawPoint point = elastic_point();
+  const double expected = 80.0 / kYoung;
+  const std::vector<Row> rows = rows_of(point, test, accuracy(1e-3));
+  EXPECT_NEAR(rows[10].strain(k22), -expected, kShare * expected);
+  EXPECT_NEAR(rows[30].strain(k22), expected, kShare * expected);
+
+  NamedTest isotropic = named("isotropic", 0.0, 4);
+  isotropic.pressure = kPressure;
+  NamedTest further = isotropic;
+  further.pressure = kPressure + 80.0;
+  LawPoint other = elastic_point();
+  const std::vector<Stage> stages{completed(stage_of(isotropic, Room::axes), Room::axes),
+                                  completed(stage_of(further, Room::axes), Room::axes)};
+  const Outcome outcome = follow(other, stages, accuracy(1e-3));
+  ASSERT_EQ(outcome.failure, "");
+  // Each of three stresses is off by the share at most, and the volume strain is their mean over K.
+  const double volume = -80.0 * 3.0 * (1.0 - 2.0 * kPoisson) / kYoung;
+  EXPECT_NEAR(outcome.rows.back().volume - 1.0, volume, kShare * std::abs(volume));
+}
+
+TEST(ElementLaws, ADrainedStageHasNoPorePressure) {
+  LawPoint point = elastic_point();
+  NamedTest test = named("triaxial", 0.001);
+  test.undrained = true;
+  NamedTest drained = named("triaxial", 0.002);
+  const std::vector<Stage> stages{completed(stage_of(test, Room::axes), Room::axes),
+                                  completed(stage_of(drained, Room::axes), Room::axes),
+                                  completed(stage_of(test, Room::axes), Room::axes)};
+  const Outcome outcome = follow(point, stages, accuracy());
+  ASSERT_EQ(outcome.failure, "");
+  ASSERT_EQ(outcome.rows.size(), 61u);
+  const double loss = kShear * 0.001;  // 2 G times half of the axial strain
+  EXPECT_STRESS(outcome.rows[20].pore_pressure, loss);
+  EXPECT_EQ(outcome.rows[21].pore_pressure, 0.0);
+  EXPECT_EQ(outcome.rows[40].pore_pressure, 0.0);
+  EXPECT_STRESS(outcome.rows[40].stress(k11), -kPressure + loss);
+  EXPECT_STRESS(outcome.rows[60].pore_pressure, -loss);  // back from 0.2 to 0.1 % counts anew
 }
 
 /// q = M p + k with p = s3 + q / 3, and d eps_v = M_psi d eps_q in steady flow (docs/theory/plasticity.md, B.2).
