@@ -69,12 +69,14 @@ BenchCurve curve_of(const CsvTable& history, const std::string& x, const std::st
   BenchCurve curve;
   const std::size_t of_x = history.column(x);
   const std::size_t of_y = history.column(y);
+  const std::size_t of_time = history.column("time");
   for (std::size_t row = 0; row < history.rows(); ++row) {
     const double at = history.figure(row, of_x);
     const double value = history.figure(row, of_y);
     if (!std::isfinite(at) || !std::isfinite(value)) continue;
     curve.x.push_back(at);
     curve.y.push_back(value);
+    curve.time.push_back(history.number(row, of_time));
   }
   return curve;
 }

@@ -7,6 +7,11 @@
 #include <cmath>
 
 namespace polargrain::app {
+namespace {
+
+constexpr double kFoundAgain = 1e-9;  // of the range of y: rounding of an interpolation is far less
+
+}  // namespace
 
 double BenchCurve::at(double place) const {
   for (std::size_t k = 0; k + 1 < x.size(); ++k) {
@@ -16,6 +21,15 @@ double BenchCurve::at(double place) const {
     return y[k] + (y[k + 1] - y[k]) * (place - x[k]) / (x[k + 1] - x[k]);
   }
   return std::abs(place - x.front()) < std::abs(place - x.back()) ? y.front() : y.back();
+}
+
+BenchCurve comparable(const BenchCurve& curve, const BenchCurve& reference) {
+  if (curve.time.empty() || reference.time.empty() || reference.x.empty()) return curve;
+  const auto [least, most] = std::ranges::minmax(reference.y);
+  for (std::size_t k = 0; k < reference.x.size(); ++k)
+    if (std::abs(reference.at(reference.x[k]) - reference.y[k]) > kFoundAgain * (most - least))
+      return {curve.time, curve.y, curve.time};
+  return curve;
 }
 
 double peak_of(const BenchCurve& curve) {
@@ -28,8 +42,10 @@ double peak_like(const BenchCurve& curve, double peak) {
   return peak < 0.0 ? *least : *most;
 }
 
-BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference) {
-  const auto [first, last] = std::minmax_element(reference.x.begin(), reference.x.end());
+BenchCurve common_part(const BenchCurve& whole, const BenchCurve& reference) {
+  const BenchCurve curve = comparable(whole, reference);
+  const std::vector<double> places = comparable(reference, reference).x;
+  const auto [first, last] = std::minmax_element(places.begin(), places.end());
   const double way = 1e-9 * (*last - *first);
   const double least = *first - way;
   const double most = *last + way;
@@ -54,12 +70,13 @@ BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference) {
 BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
   BenchError error;
   const BenchCurve part = common_part(curve, reference);
+  const BenchCurve along = comparable(reference, reference);
   if (part.x.empty()) return error;
   const auto [least, most] = std::minmax_element(reference.y.begin(), reference.y.end());
   const double range = *most - *least;
   BenchCurve expected{part.x, {}};
   for (std::size_t k = 0; k < part.x.size(); ++k) {
-    expected.y.push_back(reference.at(part.x[k]));
+    expected.y.push_back(along.at(part.x[k]));
     error.largest = std::max(error.largest, std::abs(part.y[k] - expected.y[k]) / range);
   }
   const double reference_peak = peak_of(expected);

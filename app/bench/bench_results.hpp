@@ -13,11 +13,16 @@ namespace polargrain::app {
 struct BenchCurve {
   std::vector<double> x;
   std::vector<double> y;
+  std::vector<double> time = {};  ///< of the steps
 
   /// The value at x between the two places that enclose it, straight; along the curve, so that x may go back:
   /// the first enclosing piece counts. The end value beyond either end.
   [[nodiscard]] double at(double x) const;
 };
+
+/// Curves as they are compared: over x; over time where x of the reference goes back, so that its values are not found again by x.
+/// @returns the curve, with what it is compared along as x
+BenchCurve comparable(const BenchCurve& curve, const BenchCurve& reference);
 
 /// The value of largest magnitude. @param curve not empty
 double peak_of(const BenchCurve& curve);
@@ -25,10 +30,10 @@ double peak_of(const BenchCurve& curve);
 /// side are compared. @param curve not empty
 double peak_like(const BenchCurve& curve, double peak);
 
-/// The part of a curve within the range of x of a reference, up to the edge itself.
-BenchCurve common_part(const BenchCurve& curve, const BenchCurve& reference);
+/// The part of a curve, made comparable, within the range of x of a reference, up to the edge itself.
+BenchCurve common_part(const BenchCurve& whole, const BenchCurve& reference);
 
-/// How far a curve is from a reference: at the curve's own places, as far as both go, and where that ends.
+/// How far a curve is from a reference (comparable): at the curve's own places, as far as both go, and where that ends.
 struct BenchError {
   double largest = 0.0;  ///< of the difference, over the range of the reference
   double peak =

@@ -18,10 +18,14 @@ struct MeanCurve {
 /// At the places of the first run: all take the same steps.
 MeanCurve mean_curve(const Runs& runs, std::size_t y) {
   MeanCurve mean;
-  mean.curve.x = runs.front()->curves[y].x;
-  for (const double place : mean.curve.x) {
+  const BenchCurve& first = runs.front()->curves[y];
+  mean.curve.x = first.x;
+  mean.curve.time = first.time;
+  std::vector<BenchCurve> curves;
+  for (const BenchResult* run : runs) curves.push_back(comparable(run->curves[y], first));
+  for (const double place : comparable(first, first).x) {
     std::vector<double> values;
-    for (const BenchResult* run : runs) values.push_back(run->curves[y].at(place));
+    for (const BenchCurve& curve : curves) values.push_back(curve.at(place));
     const Spread spread = spread_of(values);
     mean.curve.y.push_back(spread.mean);
     mean.largest_deviation = std::max(mean.largest_deviation, spread.deviation.value_or(0.0));

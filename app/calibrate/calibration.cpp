@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <span>
+#include <tuple>
 
 #include "app/calibrate/script_parameters.hpp"
 #include "app/element/element_table.hpp"
@@ -18,6 +20,7 @@
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document_kind.hpp"
 #include "coupler/case/section.hpp"
+#include "element/stage.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -45,6 +48,8 @@ constexpr const char* kShared[] = {"packing",
                                    "iterations",
                                    "cuts",
                                    "jumps"};
+
+constexpr double kNoise = 1e-3;  // of the range of a column: less is no way back
 
 Parameter read_parameter(const Entry::Member& member, Faults& faults) {
   Section section(member.value, fmt::format("parameter '{}'", member.key), faults);
@@ -98,9 +103,66 @@ std::vector<std::string> columns_of_test(const ElementSpecification& test) {
   return element_columns(form_of(test), names_of_columns<CellDiagnostics>());
 }
 
+/// Where a curve comes to a value of x, each time that it has been away from it in between.
+/// @param x of its rows @returns places: the row before, or the row itself
+std::vector<std::size_t> passages(const std::vector<double>& x, double at) {
+  if (x.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(x);
+  const double noise = kNoise * (most - least);
+  std::vector<std::size_t> found;
+  bool is_away = true;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const bool is_between = k > 0 && x[k - 1] != at && (x[k - 1] < at) == (at < x[k]);
+    if (is_away && (x[k] == at || is_between)) {
+      found.push_back(x[k] == at ? k : k - 1);
+      is_away = false;
+    }
+    if (std::abs(x[k] - at) > noise) is_away = true;
+  }
+  return found;
+}
+
+/// The course of a strain over the stages that count, as far as they prescribe it; empty where it is not known before the test.
+std::vector<double> prescribed_course(const ElementSpecification& test, const TargetPoint& point) {
+  int place = -1;
+  for (int k = 0; k < 6; ++k)
+    if (point.along == std::string("e") + element::kPlaceNames[static_cast<std::size_t>(k)]) place = k;
+  const double sign = point.along == "axial_strain" ? -1.0 : 1.0;
+  if (sign < 0.0) place = element::k22;
+  if (place < 0) return {};
+  std::vector<double> course;
+  std::optional<double> at = 0.0;  // strains count from the end of the consolidation
+  for (std::size_t k = 1; k < test.stages.size(); ++k) {
+    const element::Stage& stage = test.stages[k];
+    const bool counts = point.stage == 0 || point.stage == static_cast<int>(k);
+    if (stage.zero) at = 0.0;
+    const auto given = std::ranges::find_if(stage.constraints, [place](const element::Constraint& c) {
+      return c.place == place && c.kind == element::Constraint::Kind::strain;
+    });
+    if (given == stage.constraints.end()) at.reset();
+    if (!at && counts) return {};
+    if (!at) continue;
+    const double start = *at;
+    for (int row = 0; row <= stage.rows; ++row) {
+      at = element::target(*given, stage.cycles, start, static_cast<double>(row) / stage.rows);
+      if (counts) course.push_back(sign * *at);
+    }
+  }
+  return course;
+}
+
+/// The target that took a row of the laboratory's table: its number, test and stage.
+struct Taker {
+  std::size_t target;
+  std::size_t test;
+  int stage;
+};
+/// By the two columns and the row.
+using Takers = std::map<std::tuple<std::string, std::string, std::size_t>, Taker>;
+
 /// Reads one target: points of the laboratory's table, or one number.
 void read_target(const Entry& entry, std::size_t number, const CsvTable& table, Calibration& calibration,
-                 Faults& faults) {
+                 Takers& takers, Faults& faults) {
   Section section(entry, fmt::format("target {}", number), faults);
   TargetPoint point;
   const std::string test =
@@ -113,6 +175,15 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
   const std::vector<std::string> columns = columns_of_test(calibration.tests[point.test]);
   point.column = section.choice("column", columns);
   point.error = section.quantity("error", Dimension::number, Limit::positive);
+  const std::vector<element::Stage>& stages = calibration.tests[point.test].stages;
+  const int last_stage = static_cast<int>(stages.size()) - 1;
+  point.stage = section.whole_or("stage", 1, 0);
+  if (point.stage > last_stage) {
+    section.fault("stage", fmt::format("stage: test '{}' has stages 1 to {}", test, last_stage));
+    return;
+  }
+  point.end_stage = point.stage > 0 ? point.stage : last_stage;
+  point.end_row = stages[static_cast<std::size_t>(point.end_stage)].rows;
   for (const auto& [key, where] :
        {std::pair{"largest", TargetPoint::Where::largest}, {"last", TargetPoint::Where::last}}) {
     if (section.find(key) == nullptr) continue;
@@ -151,6 +222,7 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
             test_column, coupler::listed(table.names())));
     return;
   }
+  const std::vector<double> course = prescribed_course(calibration.tests[point.test], point);
   std::size_t count = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (names_tests && table.cell(row, test_column) != lab_test) continue;
@@ -158,6 +230,28 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
     point.at = factor_along * table.number(row, table.column(lab_along));
     if (point.at < from || point.at > to) continue;
     point.value = factor * table.number(row, table.column(lab));
+    if (passages(course, point.at).size() > 1) {
+      section.fault("along", told_as_passed_again(calibration, point));
+      return;
+    }
+    const Taker& taker =
+        takers.try_emplace({lab, lab_along, row}, Taker{number, point.test, point.stage}).first->second;
+    if (taker.test == point.test ? taker.stage != point.stage : !names_tests) {
+      section.fault(
+          "lab",
+          fmt::format(
+              "target {} has taken line {} of the laboratory's table for {} already: {}", taker.target,
+              table.line_of(row),
+              taker.test == point.test ? fmt::format("another stage of test '{}'", test)
+                                       : fmt::format("test '{}'", calibration.test_names[taker.test]),
+              names_tests
+                  ? fmt::format("name the rows of each stage in the column '{}', and that name as "
+                                "'lab_test' of each target",
+                                test_column)
+                  : "rename the column that names the samples (or parts of a test) to 'test', add one, or name "
+                    "it with 'test_column'; 'lab_test' of a target names its rows"));
+      return;
+    }
     calibration.points.push_back(point);
     ++count;
   }
@@ -168,17 +262,37 @@ void read_target(const Entry& entry, std::size_t number, const CsvTable& table, 
                               lab_test, lab_along, lab));
 }
 
-/// Where a curve first comes to a value of x, or nothing.
-std::optional<double> value_along(const std::vector<std::vector<double>>& rows, std::size_t x, std::size_t y,
-                                  double at) {
-  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-    const double from = rows[k][x];
-    const double to = rows[k + 1][x];
-    if (from == at) return rows[k][y];
-    if ((from < at) == (to < at) && to != at) continue;
-    return rows[k][y] + (rows[k + 1][y] - rows[k][y]) * (at - from) / (to - from);
+using Rows = std::vector<std::vector<double>>;
+
+std::size_t place_in(const std::vector<std::string>& columns, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+}
+
+/// The consolidation is no part of the test; its rows are those of stage 0. A stage begins where the one before ended.
+Rows rows_that_count(const TargetPoint& point, const std::vector<std::string>& columns,
+                     const Rows& all_rows) {
+  const std::size_t stage = place_in(columns, "stage");
+  const std::size_t number = place_in(columns, "row");
+  Rows rows;
+  for (std::size_t k = 0; k < all_rows.size(); ++k) {
+    const auto& row = all_rows[k];
+    if (point.stage > 0 ? row[stage] != point.stage : row[stage] == 0.0) continue;
+    if (rows.empty() && point.stage > 0 && row[number] > 0.0 && k > 0) rows.push_back(all_rows[k - 1]);
+    rows.push_back(row);
   }
-  return {};
+  return rows;
+}
+
+/// The values of a curve wherever it comes to a value of x.
+std::vector<double> values_along(const Rows& rows, std::size_t x, std::size_t y, double at) {
+  std::vector<double> of_x;
+  for (const auto& row : rows) of_x.push_back(row[x]);
+  std::vector<double> values;
+  for (const std::size_t k : passages(of_x, at))
+    values.push_back(of_x[k] == at ? rows[k][y]
+                                   : rows[k][y] + (rows[k + 1][y] - rows[k][y]) * (at - of_x[k]) /
+                                                      (of_x[k + 1] - of_x[k]));
+  return values;
 }
 
 /// Each script has each parameter: a test without one would stay as it is through the whole search.
@@ -198,18 +312,51 @@ void check_scripts(const Entry& parameters, const std::vector<ElementSpecificati
 
 std::optional<double> value_of(const TargetPoint& point, const std::vector<std::string>& columns,
                                const std::vector<std::vector<double>>& all_rows) {
-  const auto column = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
-  };
-  // The consolidation is no part of the test; its rows are those of stage 0.
-  std::vector<std::vector<double>> rows;
-  for (const auto& row : all_rows)
-    if (row[column("stage")] > 0.0) rows.push_back(row);
+  const Rows rows = rows_that_count(point, columns, all_rows);
   if (rows.empty()) return {};
-  const std::size_t y = column(point.column);
-  if (point.where == TargetPoint::Where::last) return rows.back()[y];
-  if (point.where == TargetPoint::Where::along) return value_along(rows, column(point.along), y, point.at);
-  return (*std::ranges::max_element(rows, {}, [y](const auto& row) { return row[y]; }))[y];
+  const std::size_t y = place_in(columns, point.column);
+  if (point.where == TargetPoint::Where::along) {
+    const std::vector<double> values = values_along(rows, place_in(columns, point.along), y, point.at);
+    return values.empty() ? std::nullopt : std::optional(values.front());
+  }
+  const bool came_to_end = rows.back()[place_in(columns, "stage")] == point.end_stage &&
+                           rows.back()[place_in(columns, "row")] == point.end_row;
+  const auto row = point.where == TargetPoint::Where::last
+                       ? rows.end() - 1
+                       : std::ranges::max_element(rows, {}, [y](const auto& one) { return one[y]; });
+  if (!came_to_end && row == rows.end() - 1) return {};
+  return (*row)[y];
+}
+
+std::optional<std::size_t> point_passed_again(const std::vector<TargetPoint>& points,
+                                              const std::vector<std::vector<std::string>>& columns,
+                                              const std::vector<std::vector<Rows>>& curves) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const TargetPoint& point = points[k];
+    if (point.where != TargetPoint::Where::along) continue;
+    const std::vector<std::string>& names = columns[point.test];
+    for (const Rows& rows : curves[point.test])
+      for (const std::vector<double> values =
+               values_along(rows_that_count(point, names, rows), place_in(names, point.along),
+                            place_in(names, point.column), point.at);
+           const double value : values)
+        if (std::abs(value - values.front()) > point.error) return k;
+  }
+  return {};
+}
+
+std::string told_as_passed_again(const Calibration& calibration, const TargetPoint& point) {
+  const auto stages = calibration.tests[point.test].stages.size() - 1;
+  return fmt::format(
+      "along: {} of test '{}' comes to {:.4g} more than once: {}", point.along,
+      calibration.test_names[point.test], point.at,
+      point.stage == 0 && stages > 1
+          ? fmt::format(
+                "give a target for each stage, with 'stage' (1 to {}) and 'lab_test', the name of its rows of "
+                "the laboratory's table",
+                stages)
+          : "write each way there and back as a stage of its own and give 'stage' of the target, or take another "
+            "'along'");
 }
 
 double Parameter::place_of(double value) const {
@@ -259,9 +406,10 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
   if (const Entry* const parameters = top.find("parameters"))
     check_scripts(*parameters, calibration.tests, faults);
   const Entry* const targets = top.require("targets", "a list of target values of the tests");
+  Takers takers;
   if (targets != nullptr && faults.empty())
     for (std::size_t k = 0; k < targets->items.size(); ++k)
-      read_target(targets->items[k], k + 1, table, calibration, faults);
+      read_target(targets->items[k], k + 1, table, calibration, takers, faults);
   top.finish();
   if (faults.empty() && calibration.points.size() < calibration.parameters.size())
     top.fault("targets", fmt::format("targets: {} points cannot tell {} parameters",

@@ -28,6 +28,9 @@ struct TargetPoint {
   std::size_t test = 0;  ///< which of the tests
   std::string column;    ///< of its curve
   enum class Where { along, largest, last } where = Where::along;
+  int stage = 0;      ///< the only one that counts; 0: all after the consolidation
+  int end_stage = 1;  ///< the last that counts, and its last row: a test that broke off does not come there
+  int end_row = 0;
   std::string along;  ///< column that says where
   double at = 0.0;    ///< value of that column
   double value = 0.0;
@@ -54,7 +57,8 @@ Calibration read_calibration(const std::filesystem::path& laboratory, const std:
                              const std::vector<std::string>& settings, const ScriptRules& scripts,
                              const PackingsOf& packings_of);
 
-/// The value that a test has at a point; nothing where it does not come there. @param columns of the test
+/// The value that a test has at a point; nothing where it does not come there, nor at the end (or for a largest value that
+/// is the last) of a test that broke off. @param columns of the test
 /// @param rows of one packing
 std::optional<double> value_of(const TargetPoint& point, const std::vector<std::string>& columns,
                                const std::vector<std::vector<double>>& rows);
@@ -65,6 +69,14 @@ inline constexpr double kMissed = 10.0;
 std::vector<double> differences(const std::vector<TargetPoint>& points,
                                 const std::vector<std::vector<std::string>>& columns,
                                 const std::vector<std::vector<std::vector<std::vector<double>>>>& curves);
+
+/// The first point that a packing comes to more than once, with values further apart than its error. Nothing: all say which
+/// value is meant.
+std::optional<std::size_t> point_passed_again(
+    const std::vector<TargetPoint>& points, const std::vector<std::vector<std::string>>& columns,
+    const std::vector<std::vector<std::vector<std::vector<double>>>>& curves);
+/// The remedy in words.
+std::string told_as_passed_again(const Calibration& calibration, const TargetPoint& point);
 
 /// The points that one of the packings or more did not come as far as: their numbers in `points`.
 std::vector<std::size_t> missed_points(

@@ -11,9 +11,10 @@
 namespace polargrain::app {
 namespace {
 
-constexpr double kOtherOrder = 100.0;  // parameters of contacts change curves less
-constexpr double kOpposite = -0.5;     // cosine between the values of both
-constexpr double kBeginning = 0.02;    // of the test
+constexpr double kOtherOrder =
+    30.0;  // parameters of contacts change curves less; per cent are a hundred times shares
+constexpr double kOpposite = -0.5;   // cosine between the values of both
+constexpr double kBeginning = 0.02;  // of the test
 
 /// The points of one curve of the laboratory, and the tests' values there.
 struct Pair {
@@ -50,9 +51,12 @@ double reach_of(const std::string& name, const std::vector<std::string>& columns
 }
 
 /// Whether a column still grows at the end of the test: its largest value is that of the last row.
-bool is_rising(const std::string& name, const std::vector<std::string>& columns,
-               const std::vector<std::vector<double>>& rows) {
+/// @param stage the only one that counts; 0: all
+bool is_rising(const std::string& name, int stage, const std::vector<std::string>& columns,
+               std::vector<std::vector<double>> rows) {
   const auto column = static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  const auto of_stage = static_cast<std::size_t>(std::ranges::find(columns, "stage") - columns.begin());
+  if (stage > 0) std::erase_if(rows, [&](const auto& row) { return row[of_stage] != stage; });
   if (column >= columns.size() || rows.size() < 2) return false;
   const auto size_of = [&](const std::vector<double>& row) { return std::abs(row[column]); };
   return std::ranges::all_of(
@@ -77,7 +81,7 @@ std::vector<std::string> doubts_of_curves(
   std::vector<std::string> doubts;
   for (const TargetPoint& point : calibration.points)
     if (point.where == TargetPoint::Where::largest &&
-        is_rising(point.column, columns[point.test], curves[point.test].front()))
+        is_rising(point.column, point.stage, columns[point.test], curves[point.test].front()))
       doubts.push_back(fmt::format(
           "{} of test '{}': its largest value is that of the last row, so no peak was reached: let the test go on, or write "
           "'last' for 'largest'",
@@ -90,7 +94,7 @@ std::vector<std::string> doubts_of_curves(
     if (here > 0.0 && there > 0.0 && (here > kOtherOrder * there || there > kOtherOrder * here))
       doubts.push_back(fmt::format(
           "{}: the laboratory has up to {:.3g}, and the test with the values of 'start' up to {:.3g}: "
-          "check the unit of the table, and give 'factor' of the target (1e3 for kPa)",
+          "check the unit of the table, and give 'factor' of the target (1e3 for kPa, 0.01 for per cent)",
           of, here, there));
     else if (pair.tests.size() > 1 && cosine(pair) < kOpposite)
       doubts.push_back(fmt::format(

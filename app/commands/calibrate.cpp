@@ -51,6 +51,13 @@ std::string name_of_point(const Calibration& calibration, const TargetPoint& poi
                                                   : of;
 }
 
+/// In one line, for a cell of a table.
+std::string in_one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  std::ranges::replace(text, '"', '\'');
+  return text;
+}
+
 /// A search among points that no test can reach would go on to its end and say nothing.
 void tell_missed(const Calibration& calibration, const std::vector<std::size_t>& missed) {
   if (missed.empty()) return;
@@ -68,6 +75,22 @@ void tell_missed(const Calibration& calibration, const std::vector<std::size_t>&
       "the test ends before them, let it end later, or leave them out with 'to' of the target\n",
       missed.size(), calibration.points.size(),
       name_of_point(calibration, calibration.points[missed.front()]), kMissed);
+}
+
+/// A test that broke off says nothing of its end.
+void tell_broken(const Calibration& calibration, const std::vector<ElementResult>& results,
+                 const std::string& when) {
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const auto is_broken = [](const ElementCurve& curve) { return !curve.failure.empty(); };
+    const auto first = std::ranges::find_if(results[k].curves, is_broken);
+    if (first == results[k].curves.end()) continue;
+    tell(
+        stderr,
+        "warning: test '{}' broke off {} in {} of {} packings: '{}': {}; each point that it did not reach counts as {:g} "
+        "errors a packing. Let the test end earlier, or narrow 'bounds'\n",
+        calibration.test_names[k], when, std::ranges::count_if(results[k].curves, is_broken),
+        results[k].curves.size(), first->name, in_one_line(first->failure), kMissed);
+  }
 }
 
 /// Contacts of another stiffness leave grains out of rest, where a test would not begin: brought to rest under the script
@@ -114,13 +137,6 @@ void write_scripts(const Calibration& calibration, const std::vector<ElementSpec
       write_file(directory / fmt::format("best_{}.in", calibration.test_names[k]), script);
 }
 
-/// In one line, for a cell of a table.
-std::string in_one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  std::ranges::replace(text, '"', '\'');
-  return text;
-}
-
 /// @param first tell of points that the tests did not reach
 Answer evaluate(const Calibration& calibration, const std::vector<double>& values,
                 const CalibrateOptions& options, const PackingTools& tools, bool first) {
@@ -141,6 +157,9 @@ Answer evaluate(const Calibration& calibration, const std::vector<double>& value
     for (const ElementCurve& curve : result.curves) curves.back().push_back(curve.rows);
   }
   if (first) {
+    if (const auto again = point_passed_again(calibration.points, columns, curves))
+      throw RunError(told_as_passed_again(calibration, calibration.points[*again]));
+    tell_broken(calibration, results, "with the values of 'start'");
     tell_missed(calibration, missed_points(calibration.points, columns, curves));
     for (const std::string& doubt : doubts_of_curves(calibration, columns, curves))
       tell(stderr, "warning: {}\n", doubt);
@@ -284,6 +303,7 @@ int run_calibration(const CalibrateOptions& options, const PackingTools& tools) 
       });
   const std::vector<ElementSpecification> tests = tests_with(calibration, result.best.values);
   const std::vector<ElementResult> best = run_tests(tests, options, tools);
+  tell_broken(calibration, best, "with the best values");
   write_file(options.directory / "parameters.csv", table_of(calibration, result));
   if (!result.profile.empty()) write_file(options.directory / "profile.csv", profile_of(calibration, result));
   write_scripts(calibration, tests, options.directory);

@@ -14,6 +14,7 @@
 #include "common/words.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "grains_io/packing_data.hpp"
 
@@ -89,6 +90,17 @@ LayerScript layer_script(const std::string& script, const std::string& file) {
     fail(0, "specimen/layer_shear.in, which the program brings along, is not there; install it whole");
   made.text += "include " + std::filesystem::absolute(*shear).string() + "\n";
   return made;
+}
+
+void refuse_turned_bedding(const PackingSpecification& specification, const std::filesystem::path& file,
+                           const std::vector<std::string>& settings) {
+  if (!specification.deposition || specification.deposition->bedding_angle == 0.0) return;
+  const coupler::Entry document = coupler::load_document_of(coupler::DocumentKind::packing, file, settings);
+  throw InputError(
+      document.find("deposition")
+          ->find("bedding_angle")
+          ->fault("bedding_angle: grains are sheared along their bedding planes here, the angle would "
+                  "have no effect; leave it out"));
 }
 
 void shear_layer(const Packing& packing, const LayerScript& script, const LayerShear& shear,

@@ -20,6 +20,10 @@ struct LayerScript {
 /// @throws InputError where it has no modulus that can be read, or is of grains in space
 LayerScript layer_script(const std::string& script, const std::string& file);
 
+/// @throws InputError where a packing is to be turned with its bedding: plates lie along the sides of its box, which turn along
+void refuse_turned_bedding(const PackingSpecification& specification, const std::filesystem::path& file,
+                           const std::vector<std::string>& settings);
+
 inline constexpr double kPlateDepth = 3.0;  ///< of rough plates, mean radii
 
 /// How a layer is sheared.

@@ -38,6 +38,7 @@ class Measurement {
         script_(layer_script(specification_.script, specification_.script_file)),
         jobs_(2 * options.seeds.size() + options.cell_seeds.size() * (1 + candidates()), options.quiet) {
     read_packing_specification(options.specification, settings_of(options.cell_grains, 1), options.scripts);
+    refuse_turned_bedding(specification_, options.specification, options.settings);
     for (const std::filesystem::path& packing : options.beside) read_packing(packing);
     check_script_is_elsewhere();
     std::filesystem::create_directories(options.directory);
@@ -51,6 +52,12 @@ class Measurement {
     CsvFile table(options_.directory / "columns.csv",
                   joined({"cells", "lc", "lp"}, figure_names(), {"complete"}));
     for (const int seed : options_.cell_seeds) found.push_back(lengths_like(layers, columns(seed, table)));
+    if (incomplete_columns_ > 0 && !options_.quiet)
+      tell(
+          stderr,
+          "{} of {} columns of cells did not come {:.3g} diameters past their peak ('complete' 0 in columns.csv): lc and lp "
+          "rest on them as far as they came; try other candidates (--lc, --lp), more --cell-grains, or a smaller --way\n",
+          incomplete_columns_, options_.cell_seeds.size() * candidates(), options_.way);
     conclude(layers, found);
     return 0;
   }
@@ -184,6 +191,7 @@ class Measurement {
                std::filesystem::exists(folder / "ended"));
     run_column(column, folder, options_.workers, options_.scripts);
     const LayerFigures figures = figures_of(read_column(column, folder), diameter, options_.way);
+    if (!figures.complete) ++incomplete_columns_;
     table.add(joined({std::to_string(seed), fmt::format("{:g}", lc), lp ? fmt::format("{:g}", *lp) : "none"},
                      cells_of(figures), {figures.complete ? "1" : "0"}));
     table.write();
@@ -268,6 +276,7 @@ class Measurement {
   LayerScript script_;
   Jobs jobs_;
   double diameter_ = 0.0;  ///< mean one of the grains, m
+  std::size_t incomplete_columns_ = 0;
 };
 
 }  // namespace

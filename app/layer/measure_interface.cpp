@@ -38,6 +38,7 @@ class WallMeasurement {
         specification_(read_packing_specification(options.specification, settings_of(1), options.scripts)),
         script_(layer_script(specification_.script, specification_.script_file)),
         jobs_(options.seeds.size() * (1 + options.roughnesses.size()), options.quiet) {
+    refuse_turned_bedding(specification_, options.specification, options.settings);
     for (const std::filesystem::path& packing : options.beside) read_packing(packing);
     std::filesystem::create_directories(options.directory);
     check_origin();

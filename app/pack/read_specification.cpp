@@ -165,9 +165,10 @@ void require_dimension(const PackingSpecification& specification, coupler::Fault
   faults.insert(faults.end(), other.begin(), other.end());
 }
 
-/// Grains of metres, and a density of less than cork's, are numbers in other units.
+/// Grains of metres, and a density of less than cork's or more than any element's, are numbers in other units.
 constexpr double kLargestPlainRadius = 0.25;  // m
 constexpr double kLeastDensity = 100.0;       // kg/m^3, as of cork
+constexpr double kMostDensity = 25e3;         // kg/m^3
 constexpr double kLeastPlainPressure = 1e3;   // Pa
 
 /// A plain number that can hardly be meant in SI units. @param unit that was most likely meant
@@ -217,6 +218,10 @@ void doubt_numbers(const coupler::Entry& document, const PackingSpecification& s
       faults.push_back(density->fault(fmt::format(
           "density: {:g} kg/m3 is lighter than any grain (quartz 2650); write {:g} if it was in g/cm3",
           specification.density, 1e3 * specification.density)));
+    else if (specification.density > kMostDensity)
+      faults.push_back(density->fault(fmt::format(
+          "density: {:g} kg/m3 is heavier than any grain (quartz 2650); write {:g} if it was in g/m3",
+          specification.density, 1e-3 * specification.density)));
   }
 }
 

@@ -37,6 +37,30 @@ TEST(BenchErrors, AreThoseOfKnownCurves) {
   EXPECT_DOUBLE_EQ(BenchCurve({{0.0, -1.0}, {0.0, 4.0}}).at(-0.5), 2.0);
 }
 
+// Loaded to 2 and back: by x alone, 40 on the way back to 1 would be compared with the 10 of the way there.
+TEST(BenchErrors, OfACopyAreNoneWhereXGoesBack) {
+  const BenchCurve cycle{{0.0, 1.0, 2.0, 1.0, 0.0}, {0.0, 10.0, 20.0, 40.0, 50.0}, {0.0, 1.0, 2.0, 3.0, 4.0}};
+  EXPECT_EQ(error_of(cycle, cycle).largest, 0.0);
+  EXPECT_EQ(error_of(cycle, cycle).peak, 0.0);
+  // In half of the steps, 45 in place of 50 at the end, over a range of 50; by x alone that is 45 beside 0.
+  const BenchCurve coarse{{0.0, 2.0, 0.0}, {0.0, 20.0, 45.0}, {0.0, 2.0, 4.0}};
+  EXPECT_DOUBLE_EQ(error_of(coarse, cycle).largest, 0.1);
+  EXPECT_DOUBLE_EQ(error_of(coarse, cycle).peak, 0.1);
+  // Packings of their own: the mean of two such curves, and each of them, at the same times.
+  std::vector<BenchResult> results{{{}, "done", 1, 1.0, 0.0, 0.0, {cycle}, {}, {}, {}, false}};
+  for (const double part : {0.9, 1.1}) {
+    BenchResult one = results.front();
+    one.setting.grains = 100;
+    for (double& value : one.curves.front().y) value *= part;
+    results.push_back(one);
+  }
+  const std::vector<SizeScatter> sizes = compare_sizes(results);
+  ASSERT_EQ(sizes.size(), 1U);
+  EXPECT_NEAR(sizes[0].errors[0].largest, 0.0, 1e-14);
+  // 45 and 55 at the end: a deviation of 10 / sqrt(2), over the range of 50.
+  EXPECT_NEAR(sizes[0].deviations[0].largest, 0.2 / std::sqrt(2.0), 1e-14);
+}
+
 BenchResult result(double seconds, double error, const std::string& status) {
   return {{}, status, 1, seconds, 0.0, 0.0, {{{0.0, 1.0}, {0.0, 1.0 + error}}}, {}, {}, {}, false};
 }

@@ -160,6 +160,9 @@ TEST_F(Calibrate, TellsOfOtherUnitsAndSigns) {
   EXPECT_NE(in_kilopascals.find("warning: s22_Pa of test 'drained': the laboratory has up to "),
             std::string::npos)
       << in_kilopascals;
+  // As far off as per cent that the start underestimates or overestimates by a half: 1 / 0.015 is 67.
+  const std::string in_percent = warning("factor: 0.015");
+  EXPECT_NE(in_percent.find("0.01 for per cent"), std::string::npos) << in_percent;
   const std::string other_sign = warning("factor: -1");
   EXPECT_NE(other_sign.find("the laboratory and the test have opposite signs: give 'factor: -1'"),
             std::string::npos)
@@ -168,6 +171,91 @@ TEST_F(Calibrate, TellsOfOtherUnitsAndSigns) {
   EXPECT_NE(beginning.find("the points of the laboratory end at axial_strain"), std::string::npos)
       << beginning;
   EXPECT_EQ(warning("factor: 1").find("warning"), std::string::npos);
+}
+
+// A strain that comes back has a value on each way; the first passage was compared with all of them.
+TEST_F(Calibrate, AWayBackIsComparedWithItsOwnStage) {
+  const auto text = [&](const std::string& stages, const std::string& target) {
+    return "packing: " + kPacking + "\nscript: cell.in\ntolerance: 1e-8\nparameters:\n" +
+           "  stiffness: {bounds: [5e7, 5e8], start: 150e6}\n"
+           "  weakening: {bounds: [0, 1], start: 0.4, scale: linear}\n"
+           "tests:\n  loop: {pressure: 100 kPa, stages: " +
+           stages + "}\ntargets:\n  - {column: s22_Pa, error: 500" + target + "}\nevaluations: 1\n";
+  };
+  make_laboratory();
+  const std::string there_and_back =
+      "[{test: biaxial, axial_strain: 1 %, rows: 5}, {test: biaxial, axial_strain: 0.5 %, rows: 5}]";
+  expect_fault(
+      text(there_and_back, ""),
+      "spec.yaml:10: target 1: along: axial_strain of test 'loop' comes to 0.006 more than once: give "
+      "a target for each stage, with 'stage' (1 to 2)");
+  expect_fault(text("[{test: biaxial, cycles: 1, amplitude: 1 %, rows: 8}]", ""),
+               "more than once: write each way there and back as a stage of its own");
+  expect_fault(text(there_and_back, ", stage: 3"), "target 1: stage: test 'loop' has stages 1 to 2");
+  expect_fault(text(there_and_back, ", stage: 1}\n  - {column: s22_Pa, error: 500, stage: 2"),
+               "for another stage of test 'loop' already: rename the column that names the samples");
+
+  // Elastic cells under 200 kPa, strained by 0.042 % on the way there: points at 0, 0.02 and 0.04 % are passed twice.
+  const std::string stages =
+      "[{test: isotropic, to: 200 kPa, rows: 5}, {test: biaxial, axial_strain: 0.1 %, rows: 5, zero: yes}]";
+  write(scratch.path() / "lab.yaml", "packing: " + kPacking + "\nscript: true.in\ntolerance: 1e-8\n" +
+                                         "pressure: 100 kPa\nstages: " + stages + "\n");
+  const Outcome made = run("element lab.yaml --quiet -o lab");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const std::string second = ", test_column: stage, lab_test: 2";
+  write(scratch.path() / "spec.yaml", text(stages, second));
+  const Outcome twice = run("calibrate lab.csv spec.yaml -o twice -w 1");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_NE(twice.errors.find("axial_strain of test 'loop' comes to 0 more than once"), std::string::npos)
+      << twice.errors;
+  write(scratch.path() / "spec.yaml", text(stages, second + ", stage: 2"));
+  run("calibrate lab.csv spec.yaml -o once -w 1");
+  const CsvTable record(scratch.path() / "once/record.csv");
+  // Six points, at the parameters that the laboratory had: rounding of 1e-12 of 250 kPa is 1e-9 errors of 500 Pa.
+  for (int k = 1; k <= 6; ++k)
+    EXPECT_NEAR(record.number(0, record.column("difference_" + std::to_string(k))), 0.0, 1e-6) << k;
+}
+
+// Both would be fitted to the mean of the two curves.
+TEST_F(Calibrate, RowsBelongToOneTest) {
+  const std::string text = "packing: " + kPacking + "\nscript: cell.in\ntolerance: 1e-8\nparameters:\n" +
+                           "  stiffness: {bounds: [5e7, 5e8], start: 9e7}\n"
+                           "tests:\n  a: {test: biaxial, pressure: 100 kPa, axial_strain: 1 %, rows: 5}\n"
+                           "  b: {test: biaxial, pressure: 50 kPa, axial_strain: 1 %, rows: 5}\n"
+                           "targets:\n  - {test: a, column: s22_Pa, error: 500}\n"
+                           "  - {test: b, column: s22_Pa, error: 500}\nevaluations: 1\n";
+  write(scratch.path() / "lab.csv", "sample,axial_strain,s22_Pa\na,0.002,-4e5\nb,0.002,-3e5\n");
+  expect_fault(
+      text,
+      "spec.yaml:11: target 2: target 1 has taken line 2 of the laboratory's table for test 'a' already: "
+      "rename the column that names the samples (or parts of a test) to 'test'");
+  write(scratch.path() / "lab.csv", "test,axial_strain,s22_Pa\na,0.002,-4e5\nb,0.002,-3e5\n");
+  write(scratch.path() / "spec.yaml", text);
+  const Outcome named = run("calibrate lab.csv spec.yaml -o out -w 1");
+  EXPECT_NE(named.out.find("reading errors, of 2 points"), std::string::npos) << named.errors;
+}
+
+// The last row of a test that broke off is none of its end, and a largest value there may be no peak.
+TEST_F(Calibrate, ATestThatBreaksOffHasNoLastValue) {
+  make_laboratory();
+  const std::string cell = content(scratch.path() / "cell.in");
+  // Refuses the first step; the row at the start, of -100 kPa, is there.
+  std::string broken = cell;
+  broken.replace(broken.find("equal 0.5"), 9, "equal 1e-9");
+  write(scratch.path() / "cell.in", broken);
+  write(scratch.path() / "spec.yaml", specification("  stiffness: {bounds: [5e7, 5e8], start: 9e7}\n",
+                                                    "  - {column: s22_Pa, last: -100e3, error: 1e3}\n"
+                                                    "  - {column: s22_Pa, largest: -100e3, error: 1e3}\n") +
+                                          "evaluations: 1\n");
+  const Outcome outcome = run("calibrate lab.csv spec.yaml -o out -w 1");
+  EXPECT_NE(outcome.errors.find(
+                "warning: test 'drained' broke off with the values of 'start' in 1 of 1 packings: "),
+            std::string::npos)
+      << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the box collapsed"), std::string::npos) << outcome.errors;
+  const CsvTable record(scratch.path() / "out/record.csv");
+  for (const char* const column : {"difference_1", "difference_2"})
+    EXPECT_EQ(record.number(0, record.column(column)), 10.0) << "kMissed";
 }
 
 // Its curves would stay as they are through the whole search.

@@ -2,7 +2,9 @@
 // polargrain layer with the engine, in a size that says nothing of sand, and what a case makes of its result.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include "common/csv_table.hpp"
 #include "coupler/case/measured_length.hpp"
@@ -87,6 +89,24 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   EXPECT_NE(wrong.errors.find("bare.length.yaml was measured under another contact law"), std::string::npos)
       << wrong.errors;
 
+  // A column that went no further than a diameter has its peak later than a quarter of one: lc and lp rest on it, and it is told.
+  const std::filesystem::path history = scratch.path() / "out/column-cells16-seed1-lc0.3-lp0.25/history.csv";
+  const CsvTable column(history);
+  const std::vector<double> displacements = column.numbers("displacement");
+  const auto row = std::ranges::find_if(displacements, [&](double u) { return u > measured.mean_diameter; });
+  ASSERT_NE(row, displacements.end());
+  std::istringstream lines(content(history));
+  std::string kept;
+  const int last = column.line_of(static_cast<std::size_t>(row - displacements.begin()));
+  std::string line;
+  for (int k = 0; k < last && std::getline(lines, line); ++k) kept += line + '\n';
+  write(history, kept);
+  const Outcome cut = run_in(scratch.path(), kProgram + kSmall);
+  ASSERT_EQ(cut.status, 0) << cut.errors;
+  EXPECT_NE(cut.errors.find(" of 4 columns of cells did not come 1 diameters past their peak"),
+            std::string::npos)
+      << cut.errors;
+
   // Another way of shearing is another experiment.
   write(scratch.path() / "grains.yaml", std::string(kGrains) + "# 2\n");
   const Outcome changed = run_in(scratch.path(), kProgram + kSmall);
@@ -111,6 +131,10 @@ TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
   EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);
   EXPECT_NE(errors_of("--way 0").find("--way"), std::string::npos);
+  // The plates lie along the bedding planes: an angle changed nothing.
+  write(scratch.path() / "grains.yaml", std::string(kGrains) + "deposition: {bedding_angle: 30 deg}\n");
+  EXPECT_NE(errors_of("").find("grains.yaml:9: bedding_angle: grains are sheared along their bedding planes"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/pack/drawn_sizes.hpp"
 #include "app/pack/read_specification.hpp"
 #include "common/error.hpp"
 
@@ -51,6 +52,22 @@ TEST_F(Specification, IsRead) {
   EXPECT_DOUBLE_EQ(read.sizes.radii[1], 7e-3);
   EXPECT_DOUBLE_EQ(read.pressure, 1e5);
   EXPECT_FALSE(read.script.empty());
+}
+
+TEST(DrawnSizes, ThatLeaveTheCurveAreTold) {
+  PackingSpecification asked;
+  asked.sizes = {SizeLaw::Kind::sieve, {1e-3, 2e-3, 4e-3}, {0.0, 0.5, 1.0}};
+  Packing packing;
+  packing.grains.resize(5);
+  for (Grain& grain : packing.grains) grain.radius = 1.5e-3;
+  packing.grains.back().radius = 3e-3;
+  // Four discs of 1.5 mm weigh as much as one of 3 mm; as spheres they weigh half as much.
+  EXPECT_EQ(remark_on_drawn_sizes(asked, packing), "");
+  asked.spheres = true;
+  EXPECT_NE(remark_on_drawn_sizes(asked, packing)
+                .find("33 % of the mass pass the sieve of 4 mm, 50 % were asked for: 5 grains are too few"),
+            std::string::npos)
+      << remark_on_drawn_sizes(asked, packing);
 }
 
 TEST_F(Specification, SpheresInSpaceHaveNoThickness) {
