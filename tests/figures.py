@@ -69,7 +69,7 @@ FIGURES = [
     ("docs/settings.md", "at most 2.5 `lc`", code("app/remarks/lengths.hpp", r"kMostElementOverLength = ([\d.]+)"), 2.5, 2.5),
     ("docs/howto/cyclic.md", "a multiple of 4; the default is 40 per cycle", code("app/element/read_stage.cpp", r"kRowsOfCycle = (\d+)"), 40, 40),
     ("docs/howto/experiment.md", "a band at 45 degrees", code("docs/howto/experiment.md", r'\)" (\d+) 0\.03'), 45, 45),
-    ("docs/howto/no-convergence.md", "`jumps` (50 with cells)", code("coupler/case/read_steps.cpp", r"needs_workers\(\) \? (\d+)"), 50, 50),
+    ("docs/howto/no-convergence.md", "`jumps` (50 with cells)", code("coupler/case/read_steps.cpp", r"\"jumps\", 0, parts.result.needs_workers\(\) \? (\d+)"), 50, 50),
     ("docs/howto/packings-interval.md", "the interval is 12.7 times the standard error", lambda: student(1), 12.65, 12.75),
     ("docs/howto/space.md", "The stress ends at 300.3 kPa", code("docs/howto/space.md", r"grep -q ',(\d+)"), 300250, 300350),
     ("docs/howto/resume.md", "Checkpoints come every ten minutes", code("coupler/case/case.hpp", r"checkpoint_minutes = ([\d.]+)"), 10, 10),

@@ -111,8 +111,9 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   fem::SolverOptions& solver = parts.result.solver;
   solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);
   solver.most_iterations = steps.whole_or("iterations", 1, solver.most_iterations);
-  // Grains answer with noise: a case without cells may well ask for less.
-  solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive, 1e-3);
+  // Grains answer with noise. Laws do not, and a loose balance of theirs hides a collapse.
+  solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive,
+                                             parts.result.needs_workers() ? 1e-3 : 1e-5);
   solver.moment_tolerance =
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
   for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})

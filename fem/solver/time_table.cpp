@@ -71,9 +71,22 @@ double TimeTable::slope(double time) const {
   return 0.0;
 }
 
+bool TimeTable::changes() const {
+  return std::ranges::any_of(points_,
+                             [&](const Point& point) { return point.value != points_.front().value; });
+}
+
 double TimeTable::largest_magnitude() const {
   double largest = 0.0;
   for (const Point& point : points_) largest = std::max(largest, std::abs(point.value));
+  return largest;
+}
+
+double TimeTable::largest_change(double time) const {
+  const double now = at(time);
+  double largest = 0.0;
+  for (const Point& point : points_)
+    if (point.time > time) largest = std::max(largest, std::abs(point.value - now));
   return largest;
 }
 

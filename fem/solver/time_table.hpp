@@ -27,6 +27,10 @@ class TimeTable {
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
   [[nodiscard]] double largest_magnitude() const;
+  /// Largest magnitude of the change from the value at `time` to any that comes later.
+  [[nodiscard]] double largest_change(double time) const;
+  /// Whether it has more than one value.
+  [[nodiscard]] bool changes() const;
   /// Whether it is of_accelerations.
   [[nodiscard]] bool is_accelerated() const { return !motions_.empty(); }
   /// Whether both have the same values at all times, whatever their points: a value that is reached at time 1 and a table

@@ -94,5 +94,28 @@ steps: {count: 8, cut: 3, iterations: 8}
       << outcome.errors;
 }
 
+// A vertical cut of 3 m with a cohesion of 7 kPa stands up to gamma h / c = 3.83 tan(45 deg + phi / 2) = 5.5; here it is 7.7.
+// All loads and reactions are some twenty times the forces that the cut changes.
+TEST(Struggling, ACutThatCollapsesIsNotBalancedByALooseTolerance) {
+  const Scratch scratch("cut");
+  write(scratch.path() / "case.yaml", R"(title: A vertical cut
+continuum: cauchy
+mesh: {rectangle: {size: [24 m, 9 m], elements: [24, 9], regions: {pit: [0, 6 m, 6 m, 9 m]}}}
+materials:
+  soil: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 20 deg, dilatancy_angle: 0 deg, cohesion: 7 kPa}
+regions: {pit: soil, rest: soil}
+boundary: [{on: [left, right], fix: [u1]}, {on: bottom, fix: [u1, u2]}]
+body: [{unit_weight: 18 kN/m3}]
+initial_stress: [{surface: 9 m, unit_weight: 18 kN/m3, K0: 0.6}]
+steps: {stages: [{name: cut, remove: pit, count: 5}]}
+)");
+  EXPECT_EQ(run_in(scratch.path(), kProgram + " run case.yaml -o out").status, 1);
+  const Outcome loose =
+      run_in(scratch.path(), kProgram + " run case.yaml -o loose --set steps.tolerance=1e-2");
+  EXPECT_NE(loose.errors.find("of the forces that change in stage 'cut' unbalanced, and a collapse unseen"),
+            std::string::npos)
+      << loose.errors;
+}
+
 }  // namespace
 }  // namespace polargrain::testing
