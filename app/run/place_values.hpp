@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "coupler/case/place_values.hpp"
@@ -14,10 +16,11 @@ template <int dim>
 std::vector<double> values_at(const fem::Solver<dim>& solver, const fem::PlaceFinder<dim>& finder,
                               const std::vector<double>& at, const std::vector<coupler::PlaceValue>& values);
 
-/// Writes a profile of the committed state as a table: distance, place and values, a row a point.
+/// Writes a profile of the committed state as a table: distance, place and values, a row a point; where the line passes an
+/// interface, or stresses the border of two materials, a row a side. @param regions of the case: region to material
 /// @throws RunError when it cannot be written
 template <int dim>
 void write_profile(const std::filesystem::path& file, const coupler::Profile& profile,
-                   const fem::Solver<dim>& solver);
+                   const fem::Solver<dim>& solver, const std::map<std::string, std::string>& regions);
 
 }  // namespace polargrain::app

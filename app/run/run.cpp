@@ -212,6 +212,11 @@ class Run {
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
       if (!doubt_) doubt_ = warn_if(fem::doubt_of_one_point_elements(*solver_));
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
+      if (!unstable_ && solver_->has_lost_stability())
+        unstable_ = warn_if(fmt::format(
+            "the balance before step {} is unstable or has passed a bifurcation, as when a column buckles or a band forms: the "
+            "run follows the even path beyond it. Look at shorter steps, and give the body a small imperfection or side load",
+            step));
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
       observer_.end_step(report.time);
     }
@@ -249,9 +254,25 @@ class Run {
     if (const coupler::CaseStage* const stage = case_.stage_of(step_); stage && stage->first_step == step_)
       log_.info("stage '{}'", stage->name);
     begin_stage_of(case_, step_, *solver_);
+    doubt_tolerance();
     if (case_.real_time) return solver_->advance_real_time(target.amount, case_.explicit_options);
     if (target.explicit_steps == 0) return take_balanced_step(target, *solver_);
     return take_explicit(target);
+  }
+
+  /// Once a stage: the tolerance is a share of all loads and reactions, and little may change of them.
+  void doubt_tolerance() {
+    const coupler::CaseStage* const stage = case_.stage_of(step_);
+    if (step_ != (stage ? stage->first_step : 1) || case_.real_time || case_.is_explicit()) return;
+    constexpr double kLoose = 0.02;
+    const double share = solver_->tolerated_share_of_change();
+    if (!(share > kLoose)) return;
+    const double tolerance = case_.solver.force_tolerance;
+    warn(fmt::format(
+        "'tolerance: {:.3g}' is a share of all loads and reactions and may leave {:.2g} % of the forces that change{} "
+        "unbalanced, and a collapse unseen: write 'tolerance: {:.1g}'",
+        tolerance, 100.0 * share, stage ? fmt::format(" in stage '{}'", stage->name) : "",
+        tolerance * 0.1 * kLoose / share));
   }
 
   /// By explicit steps, or (automatic) by whichever method is due.
@@ -525,6 +546,7 @@ class Run {
   bool left_out_ = false;              ///< it was said what small deformation leaves out
   bool doubt_ = false;                 ///< it was said that one-point elements are too soft
   bool soft_contacts_ = false;         ///< it was said that contacts are soft for the stress
+  bool unstable_ = false;              ///< it was said that the balance is unstable
   coupler::PoolCounts counts_before_;  ///< before the checkpoint this run has gone on from
   std::optional<coupler::Pool> pool_;
   std::optional<fem::Solver<dim>> solver_;

@@ -189,7 +189,7 @@ void RunFiles::write_fields(int step, const fem::Solver<dim>& solver) {
   write_structures(directory_ / "fields", step, solver);
   if (!case_.profiles.empty()) std::filesystem::create_directory(directory_ / "profiles", error);
   for (const coupler::Profile& profile : case_.profiles)
-    write_profile(directory_ / profile_file(profile.name, step), profile, solver);
+    write_profile(directory_ / profile_file(profile.name, step), profile, solver, case_.regions);
   if (!case_.output_points) return;
   fem::PlacedFields at_points = fem::collect_point_fields(solver);
   name_units(at_points.fields);

@@ -62,10 +62,28 @@ class StrengthReduction {
           {case_.file.string(), 0,
            "water: the factor of safety takes no pore water yet: no water would flow while strength falls; "
            "leave out 'water'"});
+    look_at_movements(faults);
     if (faults.empty() && !has_strength)
       faults.push_back(
           {case_.file.string(), 0, "no material of the case has a strength that could be reduced"});
     if (!faults.empty()) throw InputError(faults);
+  }
+
+  /// A body that a movement holds where it is does not fail, whatever its strength.
+  void look_at_movements(std::vector<Fault>& faults) const {
+    const coupler::CaseStage* const stage = case_.stage_of(last_step());
+    for (const auto& item : case_.template problem_of<dim>().prescribed) {
+      if (fem::is_rotation(item.dof) || item.value.largest_magnitude() == 0.0 ||
+          !item.life.holds(stage == nullptr ? 0 : stage->number))
+        continue;
+      faults.push_back(
+          {case_.file.string(), 0,
+           fmt::format(
+               "boundary: '{}' is moved, and would hold the body while strength falls: no factor would be found; give a "
+               "load in the place of 'move', or end it in a stage before (name: NAME; end: NAME)",
+               item.on)});
+      return;
+    }
   }
 
   /// The last step before strength is reduced.

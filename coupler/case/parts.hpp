@@ -150,6 +150,9 @@ void read_steps(const Entry& entry, CaseParts& parts);
 /// The key start_from: checks the run there. To be called when materials, regions and steps are read.
 void read_start(Section& top, CaseParts& parts);
 void read_profiles(const Entry& entry, CaseParts& parts);
+/// The nodes of a curve, along it from its lowest end (the left one, of these the lower one); around a closed one against the clock,
+/// back to its lowest place. Of what is no curve, by their coordinates. Nodes at one place are one.
+std::vector<std::vector<double>> places_along(const fem::Mesh<2>& mesh, const std::string& on);
 /// A monitor with the key `at`: a place inside of the body.
 void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts);
 /// The list below steps.stages: adds to the plan, and to the problem what begins in its stages.

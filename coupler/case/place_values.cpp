@@ -47,4 +47,23 @@ std::vector<std::string> names_of_place_values(int dimension) {
   return names;
 }
 
+template <int dim>
+std::vector<int> numbers_of_materials(const fem::Mesh<dim>& mesh,
+                                      const std::map<std::string, std::string>& regions) {
+  std::map<std::string, int> numbers;
+  std::vector<int> of_elements(mesh.elements.size(), 0);
+  for (const auto& [region, material] : regions) {
+    const auto known = mesh.regions.find(region);
+    if (known == mesh.regions.end()) continue;
+    const int number = numbers.try_emplace(material, static_cast<int>(numbers.size()) + 1).first->second;
+    for (const int element : known->second) of_elements[static_cast<std::size_t>(element)] = number;
+  }
+  return of_elements;
+}
+
+template std::vector<int> numbers_of_materials<2>(const fem::Mesh<2>&,
+                                                  const std::map<std::string, std::string>&);
+template std::vector<int> numbers_of_materials<3>(const fem::Mesh<3>&,
+                                                  const std::map<std::string, std::string>&);
+
 }  // namespace polargrain::coupler

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
+
+#include "fem/mesh/mesh.hpp"
 
 namespace polargrain::coupler {
 
@@ -19,6 +22,12 @@ const std::vector<PlaceValue>& place_values(int dimension);
 const PlaceValue* place_value(const std::string& name, int dimension);
 /// Their names, for messages.
 std::vector<std::string> names_of_place_values(int dimension);
+
+/// Of each element, the number of its material: a stress may jump from one to another.
+/// @param regions of a case: region to material
+template <int dim>
+std::vector<int> numbers_of_materials(const fem::Mesh<dim>& mesh,
+                                      const std::map<std::string, std::string>& regions);
 
 /// Values along a line, written beside the fields.
 struct Profile {

@@ -265,6 +265,12 @@ class CaseReader {
       const std::string dof =
           section.choice(reaction ? "reaction" : "displacement", dof_names(case_.dimension()));
       if (!dof.empty()) monitor.dof = dof_of(dof);
+      if (!dof.empty() && fem::is_rotation(monitor.dof) && is_classical())
+        section.fault(
+            reaction ? "reaction" : "displacement",
+            fmt::format("{}: a cauchy continuum has no micro-rotation, and it stays zero; set 'continuum: "
+                        "cosserat', or for the moment in a beam give {{beam: NAME, value: moment}}",
+                        dof));
     }
     section.finish();
     monitor.on = on;

@@ -12,6 +12,7 @@
 #include "common/csv_table.hpp"
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/parts.hpp"
+#include "fem/beam/beam.hpp"
 #include "fem/solver/geostatic.hpp"
 
 namespace polargrain::coupler {
@@ -133,14 +134,88 @@ bool read_accelerations(Section& item, CaseParts& parts,
   return true;
 }
 
-bool read_supports(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
-  const auto prescribe = [&](fem::Dof dof, const fem::TimeTable& value) {
+/// The nodes of beams at a place.
+struct NodesOfBeams {
+  bool any = false;
+  bool all = false;    ///< the place has no others
+  bool along = false;  ///< a whole element of a beam
+};
+
+NodesOfBeams nodes_of_beams(const std::string& place, const CaseParts& parts) {
+  return parts.result.with_problem([&](const auto& problem) {
+    const std::size_t field = fem::number_of_field(problem.fields, fem::kBeamRotation);
+    if (field == problem.fields.size() || !problem.mesh.has_nodes_on(place)) return NodesOfBeams{};
+    const std::vector<int> nodes = problem.mesh.nodes_on(place);
+    const std::vector<int>& turning = problem.fields[field].nodes;
+    const auto is_here = [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); };
+    const auto turns = [&](int node) { return std::ranges::find(turning, node) != turning.end(); };
+    const auto is_along = [&](const auto& structure) {
+      const auto pairs = problem.contributions[structure.second.contributions.front()]->joined_nodes();
+      return structure.second.kind == CaseParts::Structure::Kind::beam &&
+             std::ranges::any_of(
+                 pairs, [&](const auto& pair) { return is_here(pair.first) && is_here(pair.second); });
+    };
+    return NodesOfBeams{std::ranges::any_of(nodes, turns), std::ranges::all_of(nodes, turns),
+                        std::ranges::any_of(parts.structures, is_along)};
+  });
+}
+
+/// A rotation of a continuum that has no rotations, below `key` of an item.
+void refuse_rotation(Section& item, const std::string& key, fem::Dof dof, CaseParts& parts) {
+  if (!parts.has_mesh) return;  // the beam that it is meant for may have a fault
+  const std::string name(parts.result.space ? fem::name_of<3>(dof) : fem::name_of<2>(dof));
+  const Entry* const map = item.find(key);
+  const Entry* const value = map->find(name);
+  std::string beams;
+  for (const auto& [beam, structure] : parts.structures)
+    for (const char* const end : {"_top", "_left"})
+      if (structure.kind == CaseParts::Structure::Kind::beam && beams.empty() &&
+          parts.result.problem.mesh.has_nodes_on(beam + end))
+        beams = fmt::format("; a beam has its own, at its nodes alone, such as '{}{}'", beam, end);
+  parts.faults.push_back(
+      (value == nullptr ? *map : *value)
+          .fault(
+              fmt::format("{}: {}: {}: a cauchy continuum has no micro-rotation, and this would do nothing; "
+                          "give forces, or 'continuum: cosserat'{}",
+                          item.name(), key, name, beams)));
+}
+
+bool is_cauchy(const CaseParts& parts) {
+  return parts.result.with_problem(
+      [](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+}
+
+/// Where a node has two rotations, that of a beam and the micro-rotation of the continuum, a support, a movement or a moment on
+/// nodes of beams alone is the beam's. A place with others too, such as a plane of symmetry, gives both. Along a whole beam it
+/// is the continuum's: the beam bends.
+void prescribe(Section& item, const std::string& key, const std::vector<std::string>& places, fem::Dof dof,
+               const fem::TimeTable& value, CaseParts& parts) {
+  for (const std::string& place : places) {
+    const NodesOfBeams beams = fem::is_rotation(dof) ? nodes_of_beams(place, parts) : NodesOfBeams{};
+    if (beams.all && beams.along)
+      item.fault(key, fmt::format("{}: w on '{}' would hold a beam along its whole length, and it could not "
+                                  "bend; name an end of it",
+                                  key, place));
+    const bool turns_beam = beams.any && !beams.along;
+    if (fem::is_rotation(dof) && !turns_beam && value.largest_magnitude() > 0.0 && is_cauchy(parts))
+      refuse_rotation(item, key, dof, parts);
     parts.result.with_problem([&](auto& problem) {
-      for (const std::string& place : places) problem.prescribed.push_back({place, dof, value, {}});
+      if (!turns_beam || !beams.all) problem.prescribed.push_back({place, dof, value, {}});
+      if (turns_beam)
+        problem.prescribed_fields.push_back(
+            {.field = fem::kBeamRotation, .on = place, .value = value, .from_here = true});
     });
+  }
+}
+
+bool read_supports(Section& item, const std::vector<std::string>& places, CaseParts& parts) {
+  const auto prescribe_by = [&](const std::string& key) {
+    return [&, key](fem::Dof dof, const fem::TimeTable& value) {
+      prescribe(item, key, places, dof, value, parts);
+    };
   };
-  bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts, prescribe);
-  found = read_accelerations(item, parts, prescribe) || found;
+  bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts, prescribe_by("move"));
+  found = read_accelerations(item, parts, prescribe_by("accelerate")) || found;
   if (item.find("fix") == nullptr) return found;
   const std::vector<std::string>& known = dof_names(parts.result.dimension());
   for (const std::string& name : item.words("fix", "a list of " + listed(known))) {
@@ -152,7 +227,7 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
                moved != nullptr && moved->find(name) != nullptr) {
       item.fault("fix", fmt::format("fix: {} is below 'move' too; keep one of them", name));
     } else {
-      prescribe(dof_of(name), fem::TimeTable::constant(0.0));
+      prescribe(item, "fix", places, dof_of(name), fem::TimeTable::constant(0.0), parts);
     }
   }
   return true;
@@ -169,6 +244,8 @@ bool read_tractions(Section& item, const std::vector<std::string>& places, CaseP
   const bool traction = dof_tables(
       item, "traction", dimension, Single::constant, parts, [&](fem::Dof dof, const fem::TimeTable& value) {
         const auto place = static_cast<std::size_t>(fem::place_of<dim>(dof));
+        if (fem::is_rotation(dof) && value.largest_magnitude() > 0.0 && is_cauchy(parts))
+          refuse_rotation(item, "traction", dof, parts);
         (fem::is_rotation(dof) ? load.couple_traction[place - dim] : load.traction[place]) = value;
       });
   if (!pressure && !traction) return false;
@@ -186,13 +263,18 @@ bool read_node_forces(Section& item, const std::vector<std::string>& places, Cas
     if (space) return fem::is_rotation(dof) ? Dimension::moment : Dimension::force;
     return fem::is_rotation(dof) ? Dimension::force : Dimension::force_per_length;
   };
-  return dof_tables(item, "node_force", dimension, Single::constant, parts,
-                    [&](fem::Dof dof, const fem::TimeTable& value) {
-                      parts.result.with_problem([&](auto& problem) {
-                        for (const std::string& place : places)
-                          problem.node_loads.push_back({place, dof, value});
-                      });
-                    });
+  return dof_tables(
+      item, "node_force", dimension, Single::constant, parts, [&](fem::Dof dof, const fem::TimeTable& value) {
+        for (const std::string& place : places) {
+          const bool is_moment = fem::is_rotation(dof);
+          const NodesOfBeams beams = is_moment ? nodes_of_beams(place, parts) : NodesOfBeams{};
+          if (is_moment && !beams.all && value.largest_magnitude() > 0.0 && is_cauchy(parts))
+            refuse_rotation(item, "node_force", dof, parts);
+          parts.result.with_problem([&](auto& problem) {
+            problem.node_loads.push_back({place, dof, value, {}, beams.any ? fem::kBeamRotation : ""});
+          });
+        }
+      });
 }
 
 /// `{on: left, tie: right}`
@@ -248,6 +330,8 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
     parts.result.with_problem([&](auto& problem) {
       for (std::size_t k = before[0]; k < problem.prescribed.size(); ++k)
         problem.prescribed[k].from_here = false;
+      for (std::size_t k = before[4]; k < problem.prescribed_fields.size(); ++k)
+        problem.prescribed_fields[k].from_here = false;
     });
   }
   const bool quiet =
@@ -265,6 +349,26 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
         ": has no support and no load; give fix, move, accelerate, pressure, traction, node_force, tie or quiet, and "
         "with water drained, pore_pressure, water_level, free_water or flux"));
   }
+}
+
+/// A quiet boundary is let go once the start is balanced: a movement that is given there would be dropped.
+/// @param first number of the first support of each item
+void refuse_motion_of_quiet(const Entry& entry, const std::vector<std::size_t>& first, CaseParts& parts) {
+  parts.result.with_problem([&](const auto& problem) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const std::size_t end = i + 1 < first.size() ? first[i + 1] : problem.prescribed.size();
+      for (std::size_t k = first[i]; k < end; ++k) {
+        const auto& given = problem.prescribed[k];
+        if (fem::is_rotation(given.dof) || !given.value.changes() ||
+            std::ranges::find(problem.quiet, given.on) == problem.quiet.end())
+          continue;
+        parts.faults.push_back(entry.items[i].fault(fmt::format(
+            "boundary item {}: '{}' is quiet, which lets it go once the start is balanced: its movement "
+            "would be dropped; move another boundary, or leave quiet out",
+            i + 1, given.on)));
+      }
+    }
+  });
 }
 
 /// Whether `entry` is a list; a fault with the example when it is not.
@@ -383,9 +487,12 @@ void read_body_of_stage(const Entry& entry, const std::string& name, CaseParts& 
 void read_boundary(const Entry& entry, CaseParts& parts) {
   const std::size_t faults_before = parts.faults.size();
   if (!is_list(entry, "boundary", "{on: bottom, fix: [u2]}", parts.faults)) return;
+  std::vector<std::size_t> first;
   for (std::size_t i = 0; i < entry.items.size(); ++i) {
+    first.push_back(parts.counts()[0]);
     read_boundary_item(entry.items[i], fmt::format("boundary item {}", i + 1), parts);
   }
+  refuse_motion_of_quiet(entry, first, parts);
   // Where parts come or go, each stage is looked at when all of them are known.
   if (!parts.has_mesh || parts.faults.size() != faults_before || parts.builds) return;
   const std::vector<std::string> motions = parts.result.with_problem([](const auto& problem) {
@@ -407,11 +514,14 @@ void read_body_loads(const Entry& entry, CaseParts& parts) {
 void read_initial_stress(const Entry& entry, CaseParts& parts) {
   const std::string example = "{surface: 10 m, unit_weight: 18 kN/m3, K0: 0.5}";
   if (!is_list(entry, "initial_stress", example, parts.faults)) return;
-  for (std::size_t i = 0; i < entry.items.size(); ++i) {
-    const std::string name = fmt::format("initial_stress item {}", i + 1);
-    parts.result.space ? read_initial_stress_item<3>(entry.items[i], name, parts)
-                       : read_initial_stress_item<2>(entry.items[i], name, parts);
-  }
+  // The last item counts. An item of a region comes behind those of the whole body, wherever it is written.
+  for (const bool has_region : {false, true})
+    for (std::size_t i = 0; i < entry.items.size(); ++i) {
+      if ((entry.items[i].find("region") != nullptr) != has_region) continue;
+      const std::string name = fmt::format("initial_stress item {}", i + 1);
+      parts.result.space ? read_initial_stress_item<3>(entry.items[i], name, parts)
+                         : read_initial_stress_item<2>(entry.items[i], name, parts);
+    }
 }
 
 }  // namespace polargrain::coupler

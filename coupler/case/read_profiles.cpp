@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/find_place.hpp"
@@ -18,11 +21,13 @@ std::vector<double> read_place(Section& section, const std::string& key, CasePar
                             Limit::any);
 }
 
-/// Tells whether some element has a place; yes as long as there is no mesh to look at.
+/// Tells whether some element has a place, and whether values there have two sides; yes and no as long as there is no mesh to look at.
 class Body {
  public:
-  explicit Body(const CaseParts& parts) {
+  explicit Body(const CaseParts& parts) : parts_(parts) {
     if (!parts.has_mesh) return;
+    materials_ = parts.result.with_problem(
+        [&](const auto& problem) { return numbers_of_materials(problem.mesh, parts.result.regions); });
     if (parts.result.space)
       space_.emplace(parts.result.space->mesh);
     else
@@ -32,8 +37,48 @@ class Body {
     if (space_) return !space_->find({at[0], at[1], at[2]}).elements.empty();
     return !plane_ || !plane_->find({at[0], at[1]}).elements.empty();
   }
+  /// Where one of the values differs on the sides of a place: why, and a place to one side. Else empty.
+  [[nodiscard]] std::string sides_of(const std::vector<double>& at,
+                                     const std::vector<PlaceValue>& values) const {
+    if (space_) return sides_in(*space_, parts_.result.space->mesh, at, values);
+    return plane_ ? sides_in(*plane_, parts_.result.problem.mesh, at, values) : "";
+  }
 
  private:
+  template <int dim>
+  [[nodiscard]] std::string sides_in(const fem::PlaceFinder<dim>& finder, const fem::Mesh<dim>& mesh,
+                                     const std::vector<double>& at,
+                                     const std::vector<PlaceValue>& values) const {
+    using Place = typename Cosserat<dim>::Place;
+    constexpr double kAside = 0.05;  // of the way to the middle of the elements
+    const Place place = Eigen::Map<const Place>(at.data());
+    const fem::Probe<dim> probe = finder.find(place);
+    const bool parted = fem::sides_at(mesh, probe).size() > 1;
+    const std::vector<fem::Probe<dim>> sides = fem::sides_at(mesh, probe, materials_);
+    if (sides.size() < 2) return "";
+    const Place middle = fem::middle_of(mesh, sides.front());
+    const Place across = fem::middle_of(mesh, sides.back()) - middle;
+    const auto jumps = [&](const PlaceValue& value) {
+      if (parted || !value.is_stress) return parted;
+      // Balance makes the stress normal to a border the same on both sides.
+      for (int i = 0; i < dim; ++i)
+        if (sides.size() == 2 && value.name == fmt::format("s{0}{0}", i + 1) &&
+            std::abs(across(i)) > (1.0 - 1e-9) * across.norm())
+          return false;
+      return true;
+    };
+    if (std::ranges::none_of(values, jumps)) return "";
+    const Place aside = place + kAside * (middle - place);
+    std::string example;
+    for (const double x : aside) example += fmt::format("{}{:.4g} m", example.empty() ? "" : ", ", x);
+    return fmt::format("{}; give a place to one side, for example [{}]",
+                       parted ? "an interface parts the body here, and each side has its own value"
+                              : "two materials meet here, and the stress has a value on each side",
+                       example);
+  }
+
+  const CaseParts& parts_;
+  std::vector<int> materials_;
   std::optional<fem::PlaceFinder<2>> plane_;
   std::optional<fem::PlaceFinder<3>> space_;
 };
@@ -60,20 +105,104 @@ std::vector<std::vector<double>> places_between(Section& section, CaseParts& par
   return places;
 }
 
-/// The nodes of a boundary, by their coordinates: the settlement trough of a surface, a wall from below upwards.
+using PlaceOfNode = std::vector<double>;
+/// The places of a curve, each with those that come before and behind it.
+using Neighbours = std::map<PlaceOfNode, std::set<PlaceOfNode>>;
+
+/// By places: the copies of a node on both sides of an interface are one.
+Neighbours neighbours_on(const fem::Mesh<2>& mesh, const std::string& on) {
+  const auto place = [&](int node) {
+    const auto& x = mesh.nodes[static_cast<std::size_t>(node)];
+    return PlaceOfNode(x.begin(), x.end());
+  };
+  Neighbours beside;
+  for (const int node : mesh.nodes_on(on)) beside[place(node)];
+  const auto add = [&](const fem::BoundarySide& side) {
+    std::vector<PlaceOfNode> way;
+    for (const int node : mesh.side_nodes(side)) way.push_back(place(node));
+    if (!std::ranges::all_of(way, [&](const PlaceOfNode& here) { return beside.contains(here); })) return;
+    std::rotate(way.begin() + 1, way.begin() + 2, way.end());  // both ends come before the middle node
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      beside[way[k - 1]].insert(way[k]);
+      beside[way[k]].insert(way[k - 1]);
+    }
+  };
+  if (const auto boundary = mesh.boundaries.find(on); boundary != mesh.boundaries.end()) {
+    for (const fem::BoundarySide& side : boundary->second) add(side);
+  } else {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      for (std::size_t side = 0; side < mesh.elements[e].type->sides.size(); ++side)
+        add({static_cast<int>(e), static_cast<int>(side)});
+  }
+  return beside;
+}
+
+std::vector<PlaceOfNode> in_order(const Neighbours& beside) {
+  std::vector<PlaceOfNode> places;
+  const auto is_branch = [](const auto& one) { return one.second.size() > 2; };
+  if (std::ranges::any_of(beside, is_branch)) {
+    for (const auto& [place, others] : beside) places.push_back(place);
+    return places;
+  }
+  std::set<PlaceOfNode> done;
+  const auto follow = [&](PlaceOfNode place) {
+    while (done.insert(place).second) {
+      places.push_back(place);
+      for (const PlaceOfNode& next : beside.at(place)) {
+        if (done.contains(next)) continue;
+        place = next;
+        break;
+      }
+    }
+  };
+  for (const auto& [place, others] : beside)
+    if (others.size() < 2) follow(place);
+  for (const auto& [place, others] : beside) {
+    if (done.contains(place)) continue;
+    const PlaceOfNode& one = *others.begin();
+    const PlaceOfNode& other = *others.rbegin();
+    const double turn =
+        (one[0] - place[0]) * (other[1] - place[1]) - (one[1] - place[1]) * (other[0] - place[0]);
+    done.insert(place);
+    places.push_back(place);
+    follow(turn > 0.0 ? one : other);
+    places.push_back(place);
+  }
+  return places;
+}
+
+/// The nodes of a boundary: the settlement trough of a surface, a wall from below upwards, a lining around.
 std::vector<std::vector<double>> places_on(Section& section, CaseParts& parts) {
   const std::string on = section.text("on", "the name of a boundary or node set");
   parts.check_places(section, "on", {on});
   std::vector<std::vector<double>> places;
-  parts.result.with_problem([&](const auto& problem) {
+  parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
     if (!parts.has_mesh || !problem.mesh.has_nodes_on(on)) return;
-    for (const int node : problem.mesh.nodes_on(on)) {
-      const auto& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
-      places.emplace_back(place.begin(), place.end());
+    if constexpr (dim == 2) {
+      places = places_along(problem.mesh, on);
+    } else {
+      for (const int node : problem.mesh.nodes_on(on)) {
+        const auto& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
+        places.emplace_back(place.begin(), place.end());
+      }
+      std::ranges::sort(places);
     }
   });
-  std::ranges::sort(places);
   return places;
+}
+
+/// Tells of a line that runs along a border of two sides; across it each side has a row.
+void check_run_along(Section& section, const Profile& profile, const Body& body) {
+  for (std::size_t k = 0; k + 1 < profile.places.size(); ++k) {
+    std::vector<double> between = profile.places[k];
+    for (std::size_t i = 0; i < between.size(); ++i)
+      between[i] = 0.5 * (between[i] + profile.places[k + 1][i]);
+    const std::string sides = body.sides_of(between, profile.values);
+    if (sides.empty()) continue;
+    const std::string key = section.find("on") != nullptr ? "on" : "from";
+    section.fault(key, fmt::format("{}: the line runs along a border: {}, by 'from' and 'to'", key, sides));
+    return;
+  }
 }
 
 /// A name of place_values; a fault at the key where the name is unknown.
@@ -89,6 +218,10 @@ PlaceValue value_of(Section& section, const std::string& key, const std::string&
 
 }  // namespace
 
+std::vector<std::vector<double>> places_along(const fem::Mesh<2>& mesh, const std::string& on) {
+  return in_order(neighbours_on(mesh, on));
+}
+
 void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   monitor.kind = Monitor::Kind::place;
   monitor.at = read_place(section, "at", parts);
@@ -103,8 +236,11 @@ void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   monitor.component = value_of(section, key, section.text(key, "the name of a component"), parts);
   if (!monitor.component.name.empty() && monitor.component.is_stress != stress)
     section.fault(key, fmt::format("{}: '{}' is no {}", key, monitor.component.name, key));
-  if (!Body(parts).has(monitor.at))
+  const Body body(parts);
+  if (!body.has(monitor.at))
     section.fault("at", "at: this place is outside of the body; give one inside, on the mesh as it is made");
+  else if (const std::string sides = body.sides_of(monitor.at, {monitor.component}); !sides.empty())
+    section.fault("at", "at: " + sides);
 }
 
 void read_profiles(const Entry& entry, CaseParts& parts) {
@@ -128,6 +264,7 @@ void read_profiles(const Entry& entry, CaseParts& parts) {
     for (const std::string& name : section.words("values", "a list of components, for example [s22, u2]"))
       profile.values.push_back(value_of(section, "values", name, parts));
     section.finish();
+    check_run_along(section, profile, body);
     if (!profile.places.empty() &&
         std::ranges::none_of(profile.places, [&](const auto& place) { return body.has(place); }))
       section.fault("from",

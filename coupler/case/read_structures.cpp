@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "common/error.hpp"
 #include "coupler/case/parts.hpp"
@@ -94,8 +98,7 @@ class StructuresReader {
     try {
       curves_.push_back(std::make_unique<Curve>(Curve{on, fem::faces_along(problem_.mesh, on)}));
     } catch (const RunError& error) {
-      section.fault("on", fmt::format("on: {}; name a boundary, or a level between two rows of elements",
-                                      error.what()));
+      section.fault("on", fmt::format("on: {}", error.what()));
       return nullptr;
     }
     return curves_.back().get();
@@ -105,6 +108,7 @@ class StructuresReader {
     if (curve.interface)
       section.fault("on", fmt::format("on: the interface '{}' lies there; give a curve one interface",
                                       curve.interface->settings.name));
+    if (!curve.beam) check_sides(section, curve);
     InterfaceHere here{&section.entry(), {}, false};
     here.settings.name = name_;
     fem::InterfaceParameters& law = here.settings.parameters;
@@ -162,6 +166,22 @@ class StructuresReader {
     curve.interface = std::move(here);
   }
 
+  /// Without a beam an interface has ground on both sides, or a rigid body on one: a curve of both kinds is refused.
+  void check_sides(Section& section, const Curve& curve) {
+    const auto has_one = [](const fem::TwoSidedFace<dim>& face) { return !face.second; };
+    const auto one = std::ranges::find_if(curve.faces, has_one);
+    if (one == curve.faces.end() || std::ranges::all_of(curve.faces, has_one)) return;
+    section.fault(
+        "on",
+        fmt::format(
+            "on: '{}' has ground on both sides, and on one side alone at {}; {}end it there", curve.on,
+            fem::place_text<dim>(problem_.mesh.nodes[static_cast<std::size_t>(one->first_nodes.front())]),
+            dim == 2
+                ? fmt::format("give it a beam too ('beams: {{NAME: {{on: {}, EA: ..., EI: ...}}}}'), or ",
+                              curve.on)
+                : ""));
+  }
+
   /// "2/3", or a number from 0 to 1.
   double read_share(Section& section) {
     const Entry& entry = *section.find("share");
@@ -186,6 +206,16 @@ class StructuresReader {
 
   double tangent(Section& section, const std::string& key, std::optional<double> angle) {
     constexpr double kSteepest = 1.4;  // 80 degrees
+    const Entry* const entry = section.find(key);
+    if (angle && *angle > 0.0 && *angle < kSteepest && is_plain_number(entry->text)) {
+      section.fault(
+          key,
+          fmt::format(
+              "{0}: expected an angle with its unit, found '{1}'; write '{2:.3g} deg' for a coefficient of {1}, or "
+              "'{1} rad'",
+              key, entry->text, std::atan(*angle) * 180.0 / std::numbers::pi));
+      return 0.0;
+    }
     if (!angle || *angle < kSteepest) return std::tan(angle.value_or(0.0));
     section.fault(key, fmt::format("{}: must be below 80 deg", key));
     return 0.0;
@@ -230,25 +260,24 @@ class StructuresReader {
       std::vector<std::vector<int>> beam_faces;
     };
     std::vector<Own> own(curves_.size());
+    std::map<int, int> own_of;  // original node: node of all walls of beams that meet there
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       Curve& curve = *curves_[c];
-      if (!curve.interface) {
-        for (fem::TwoSidedFace<dim>& face : curve.faces) {
-          face.first_nodes = problem_.mesh.side_nodes(face.first);  // another curve may have parted it
-          own[c].beam_faces.push_back(face.first_nodes);
-        }
-        continue;
-      }
+      if (!curve.interface) continue;
       curve.faces = opening[number[c]];
       const bool one_sided = !curve.faces.front().second;
       if (!curve.beam && !one_sided) continue;
-      const fem::OwnNodes<dim> nodes = fem::add_own_nodes(problem_.mesh, before[number[c]]);
+      const fem::OwnNodes<dim> nodes = curve.beam
+                                           ? fem::add_own_nodes(problem_.mesh, before[number[c]], own_of)
+                                           : fem::add_own_nodes(problem_.mesh, before[number[c]]);
       own[c].beam_faces = nodes.face_nodes;
       add_node_set(curve.beam ? curve.beam->name : curve.interface->settings.name, nodes.nodes);
       fix_rotations(curve.beam ? curve.beam->name : curve.interface->settings.name);
       if (!curve.beam)
         parts_.rigid_bodies.emplace_back(curve.interface->settings.name, curve.interface->entry);
     }
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (!curves_[c]->interface) own[c].beam_faces = weld(*curves_[c], own_of);
     if constexpr (dim == 2) {
       for (std::size_t c = 0; c < curves_.size(); ++c)
         if (curves_[c]->beam) add_rotations(*curves_[c], own[c].beam_faces);
@@ -256,8 +285,27 @@ class StructuresReader {
         if (curves_[c]->beam) add_beam(*curves_[c], own[c].beam_faces);
       check_clamped();
     }
+    WallsAt walls;
     for (std::size_t c = 0; c < curves_.size(); ++c)
-      if (curves_[c]->interface) add_interfaces(*curves_[c], own[c].beam_faces);
+      if (curves_[c]->beam && curves_[c]->interface)
+        for (const std::vector<int>& face : own[c].beam_faces)
+          for (const int node : face) walls[node][curves_[c]->beam->name] = beams_.at(curves_[c]->beam->name);
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      if (curves_[c]->interface) add_interfaces(*curves_[c], own[c].beam_faces, walls);
+  }
+
+  /// The nodes of a beam without an interface: of the ground, and where it meets a wall in an interface, of that.
+  std::vector<std::vector<int>> weld(Curve& curve, const std::map<int, int>& own_of) {
+    std::vector<std::vector<int>> beam_faces;
+    for (fem::TwoSidedFace<dim>& face : curve.faces) {
+      std::vector<int>& nodes = beam_faces.emplace_back(face.first_nodes);
+      face.first_nodes = problem_.mesh.side_nodes(face.first);  // another curve may have parted it
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        const auto own = own_of.find(nodes[a]);
+        nodes[a] = own == own_of.end() ? face.first_nodes[a] : own->second;
+      }
+    }
+    return beam_faces;
   }
 
   void add_node_set(const std::string& name, const std::vector<int>& nodes) {
@@ -327,6 +375,7 @@ class StructuresReader {
       add_structure(curve.beam->name, CaseParts::Structure::Kind::beam);
       problem_.contributions.push_back(std::make_shared<fem::Beam>(problem_.mesh, curve.beam->name,
                                                                    curve.beam->section, std::move(elements)));
+      beams_[curve.beam->name] = problem_.contributions.back();
     }
   }
 
@@ -349,7 +398,11 @@ class StructuresReader {
     }
   }
 
-  void add_interfaces(const Curve& curve, const std::vector<std::vector<int>>& own_faces) {
+  /// The walls of beams in interfaces at a node of theirs, by name.
+  using WallsAt = std::map<int, std::map<std::string, std::shared_ptr<const fem::Contribution<dim>>>>;
+
+  void add_interfaces(const Curve& curve, const std::vector<std::vector<int>>& own_faces,
+                      const WallsAt& walls) {
     const InterfaceHere& here = *curve.interface;
     std::vector<fem::InterfaceFace<dim>> first;
     std::vector<fem::InterfaceFace<dim>> second;
@@ -364,6 +417,7 @@ class StructuresReader {
         one.neighbours.push_back(face.second->element);
         continue;
       }
+      one.nodes_across = face.second_nodes;
       // The wall as the second side sees it: its nodes in the order of that element.
       const fem::TwoSidedFace<dim> turned = face.seen_from_second(problem_.mesh);
       fem::InterfaceFace<dim> other{turned.type, turned.first_nodes, {}, {turned.first.element}, {}};
@@ -375,23 +429,68 @@ class StructuresReader {
       second.push_back(std::move(other));
     }
     fem::InterfaceSettings settings = here.settings;
-    settings.parts_ground = curve.faces.front().second.has_value();
+    settings.parts_ground =
+        std::ranges::any_of(curve.faces, [](const auto& face) { return face.second.has_value(); });
     for (const fem::TwoSidedFace<dim>& face : curve.faces)
       for (std::size_t a = 0; a < face.second_nodes.size(); ++a)
         if (face.first_nodes[a] == face.second_nodes[a]) settings.single_nodes.insert(face.first_nodes[a]);
     const std::string along = curve.beam ? curve.beam->name : "";
     add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
-    if (!second.empty()) settings.name = here.settings.name + " " + side_of(first);
-    add_interface(settings, std::move(first));
+    const std::pair<std::string, std::string> sides = sides_of(curve, first);
+    if (!second.empty()) settings.name = name_on_side(here, sides.first);
+    add_interface(settings, std::move(first), curve, walls);
     if (second.empty()) return;
-    settings.name = here.settings.name + " " + side_of(second);
+    settings.name = name_on_side(here, sides.second);
     add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
-    add_interface(settings, std::move(second));
+    add_interface(settings, std::move(second), curve, walls);
   }
 
-  void add_interface(const fem::InterfaceSettings& settings, std::vector<fem::InterfaceFace<dim>> faces) {
-    problem_.contributions.push_back(
-        std::make_shared<fem::Interface<dim>>(problem_.mesh, settings, std::move(faces)));
+  std::string name_on_side(const InterfaceHere& here, const std::string& side) {
+    std::string name = here.settings.name + " " + side;
+    if (!names_.insert(name).second)
+      parts_.faults.push_back(here.entry->fault(fmt::format(
+          "interface '{}': its {} side is '{}', a name that another interface, beam or anchor has; "
+          "rename one of them",
+          here.settings.name, side, name)));
+    return name;
+  }
+
+  void add_interface(const fem::InterfaceSettings& settings, std::vector<fem::InterfaceFace<dim>> faces,
+                     const Curve& curve, const WallsAt& walls) {
+    std::map<int, std::vector<std::shared_ptr<const fem::Contribution<dim>>>> met;
+    if (curve.beam)
+      for (const fem::InterfaceFace<dim>& face : faces)
+        for (const int node : face.nodes_b)
+          if (!met.contains(node))
+            for (const auto& [name, wall] : walls.at(node))
+              if (name != curve.beam->name) met[node].push_back(wall);
+    const auto interface = std::make_shared<fem::Interface<dim>>(problem_.mesh, settings, std::move(faces));
+    interface->meet(std::move(met));
+    problem_.contributions.push_back(interface);
+  }
+
+  /// Words for the sides of a wall, first that of the faces: inside or outside of a closed curve of the plane, else where the
+  /// ground lies.
+  std::pair<std::string, std::string> sides_of(const Curve& curve,
+                                               const std::vector<fem::InterfaceFace<dim>>& first) const {
+    static const std::map<std::string, std::string> opposite{
+        {"left", "right"}, {"right", "left"}, {"below", "above"}, {"above", "below"}};
+    if constexpr (dim == 2) {
+      const auto at = [&](int node) { return problem_.mesh.nodes[static_cast<std::size_t>(node)]; };
+      if (at(curve.faces.front().first_nodes[0]) == at(curve.faces.back().first_nodes[1])) {
+        // The first side lies to the left of the way.
+        double twice_area = 0.0;
+        for (const fem::TwoSidedFace<dim>& face : curve.faces) {
+          const Eigen::Vector2d from = at(face.first_nodes[0]);
+          const Eigen::Vector2d to = at(face.first_nodes[1]);
+          twice_area += from(0) * to(1) - from(1) * to(0);
+        }
+        if (twice_area > 0.0) return {"inside", "outside"};
+        return {"outside", "inside"};
+      }
+    }
+    const std::string side = side_of(first);
+    return {side, opposite.at(side)};
   }
 
   /// Where the ground lies that the faces belong to: left or right of a steep wall, below or above a flat one.
@@ -425,23 +524,26 @@ class StructuresReader {
 
   void read_anchors(const Entry& entry) {
     Section all(entry, "anchors", parts_.faults);
+    bool all_are_there = entry.kind == Entry::Kind::map;
     for (const Entry::Member& member : entry.members) {
       all.find(member.key);
       if (!names_.insert(member.key).second)
         all.fault(member.key, fmt::format("{}: another interface, beam or anchor has this name", member.key));
       Section section(member.value, fmt::format("anchor '{}'", member.key), parts_.faults);
-      read_anchor(section, member.key);
+      all_are_there = read_anchor(section, member.key) && all_are_there;
       section.finish();
     }
     all.finish();
+    if (!all_are_there) parts_.has_mesh = false;  // as above: their names would be faults that only follow
   }
 
   /// The one node of a place. @returns -1 and a fault when it has more nodes, or no node
   int node_of(Section& section, const std::string& key) {
     const std::string name = section.text(key, "the name of a set of one node, or in 'to' a place [x1, x2]");
+    if (!parts_.has_mesh || name.empty()) return -1;
     const std::size_t faults_before = parts_.faults.size();
     parts_.check_places(section, key, {name});
-    if (!parts_.has_mesh || name.empty() || parts_.faults.size() > faults_before) return -1;
+    if (parts_.faults.size() > faults_before) return -1;
     const std::vector<int> nodes = problem_.mesh.nodes_on(name);
     if (nodes.size() == 1) return nodes.front();
     section.fault(
@@ -450,7 +552,8 @@ class StructuresReader {
     return -1;
   }
 
-  void read_anchor(Section& section, const std::string& name) {
+  /// @returns whether it is there, so that others can name it
+  bool read_anchor(Section& section, const std::string& name) {
     const Dimension force =
         dim == 2 && section.find("spacing") == nullptr ? Dimension::force_per_length : Dimension::force;
     const double spacing =
@@ -466,21 +569,38 @@ class StructuresReader {
     } else {
       settings.to = node_of(section, "to");
     }
+    const bool has_ends =
+        parts_.faults.size() == faults_before && settings.from >= 0 && settings.to.value_or(0) >= 0;
+    read_forces(section, force, spacing, settings);
+    // A wrong number is a fault of its own: the anchor stays known to the names of it that follow.
+    if (!has_ends) return false;
+    try {
+      auto anchor = std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings);
+      add_structure(name, CaseParts::Structure::Kind::anchor);
+      problem_.contributions.push_back(std::move(anchor));
+      return true;
+    } catch (const RunError& error) {
+      section.fault("to", fmt::format("to: {}", error.what()));
+      return false;
+    }
+  }
+
+  void read_forces(Section& section, Dimension force, double spacing, fem::AnchorSettings<dim>& settings) {
+    const std::size_t faults_before = parts_.faults.size();
     settings.axial_stiffness = section.quantity("EA", force, Limit::positive) / spacing;
     settings.prestress = section.quantity_or("prestress", force, Limit::any, 0.0) / spacing;
     settings.strength = section.quantity_or("strength", force, Limit::positive, HUGE_VAL) / spacing;
     settings.compressive_strength =
         section.quantity_or("compressive_strength", force, Limit::not_negative, HUGE_VAL) / spacing;
-    if (settings.prestress > settings.strength || -settings.prestress > settings.compressive_strength)
+    if (parts_.faults.size() > faults_before) return;  // numbers that would be compared are not known
+    if (settings.prestress < 0.0)
+      section.fault(
+          "prestress",
+          fmt::format("prestress: expected a tension, zero or greater, found '{}'; write it without "
+                      "the minus, or leave it out for a strut",
+                      section.find("prestress")->text));
+    else if (settings.prestress > settings.strength)
       section.fault("prestress", "prestress: must not be beyond the strength");
-    if (!parts_.has_mesh || parts_.faults.size() > faults_before) return;
-    try {
-      auto anchor = std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings);
-      add_structure(name, CaseParts::Structure::Kind::anchor);
-      problem_.contributions.push_back(std::move(anchor));
-    } catch (const RunError& error) {
-      section.fault("to", fmt::format("to: {}", error.what()));
-    }
   }
 
   CaseParts& parts_;
@@ -488,6 +608,7 @@ class StructuresReader {
   std::vector<std::unique_ptr<Curve>> curves_;
   std::vector<std::pair<const Entry*, std::vector<std::string>>> clamped_sections_;
   std::set<std::string> names_;
+  std::map<std::string, std::shared_ptr<const fem::Contribution<dim>>> beams_;
   std::string name_;  ///< of what is read
 };
 

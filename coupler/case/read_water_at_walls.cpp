@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "coupler/case/parts.hpp"
 #include "fem/interface/interface.hpp"
@@ -93,10 +94,15 @@ std::vector<fem::BareFace<dim>> faces_of_wall(const std::string& wall, const fem
     const bool is_rigid = structure.along.empty() && name == wall;
     if (!is_rigid && structure.along != wall) continue;
     const Interfaces<dim> interfaces = interfaces_of(problem, structure);
-    const bool one_sided = interfaces.size() == 1;
+    std::map<std::vector<int>, int> sides;  // with ground, of each face of the wall
+    for (const auto& interface : interfaces)
+      for (std::size_t e = 0; e < interface->elements(); ++e) ++sides[ascending(interface->face(e).nodes_b)];
+    const auto is_one_sided = [&](const fem::InterfaceFace<dim>& face) {
+      return sides.at(ascending(face.nodes_b)) == 1;
+    };
     for (const auto& interface : interfaces) {
       if (interface->face(0).neighbours.size() != 1) continue;  // two grounds without a wall
-      const auto more = fem::bare_sides_of_wall<dim>(interface, one_sided);
+      const auto more = fem::bare_sides_of_wall<dim>(interface, is_one_sided);
       faces.insert(faces.end(), more.begin(), more.end());
     }
   }

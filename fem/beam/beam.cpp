@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -111,18 +112,31 @@ void Beam::commit() {
   for (Part& part : parts_) {
     for (Point& point : part.points) point.plastic_curvature = point.answer.plastic_curvature;
     part.committed_forces = part.forces;
+  }
+  note_largest_moment();
+}
+
+void Beam::note_largest_moment() {
+  constexpr double kAbovePlastic = 1.05;
+  constexpr double kMore = 1.1;  // times the one that was told
+  double largest = 0.0;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  for (const Part& part : parts_) {
     const auto nodes = static_cast<Eigen::Index>(part.element.nodes.size());
     for (const std::size_t end : {0, 1}) {
-      constexpr double kAbovePlastic = 1.05;
       const double moment = std::abs(part.forces(2 * nodes + static_cast<Eigen::Index>(end)));
-      if (told_hinge_ || !(moment > kAbovePlastic * section_.plastic_moment)) continue;
-      told_hinge_ = true;
-      notes_.push_back(fmt::format(
-          "{}: its moment at {} is {:.3g} times Mp: hinges form within its elements, so that it resists by as much "
-          "more and collapses too late; divide it more finely there",
-          name(), place_text<2>(part.places[end]), moment / section_.plastic_moment));
+      if (moment <= largest) continue;
+      largest = moment;
+      place = part.places[end];
     }
   }
+  const double ratio = largest / section_.plastic_moment;
+  if (!(ratio > std::max(kAbovePlastic, kMore * told_ratio_))) return;
+  told_ratio_ = ratio;
+  notes_.push_back(fmt::format(
+      "{}: its moment at {} is {:.3g} times Mp: hinges form within its elements, so that it resists by as much "
+      "more and collapses too late; divide it more finely there",
+      name(), place_text<2>(place), ratio));
 }
 
 std::vector<std::string> Beam::take_notes() {

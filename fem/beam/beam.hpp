@@ -82,14 +82,16 @@ class Beam : public Contribution<2> {
     Eigen::VectorXd born;  ///< values of the entries at which it has no forces; empty: zero
   };
 
+  /// Tells of moments above Mp, and again when they have grown by a tenth.
+  void note_largest_moment();
   /// Loads along an element, as forces on its nodes in turn.
   [[nodiscard]] static Eigen::VectorXd carried_by(const Part& part, const Problem<2>& problem);
 
   std::string name_;
   BeamSection section_;
   std::vector<Part> parts_;
-  bool active_ = true;  ///< in the stage
-  bool told_hinge_ = false;
+  bool active_ = true;       ///< in the stage
+  double told_ratio_ = 0.0;  ///< the largest moment that a note has told, over Mp
   std::vector<std::string> notes_;
 };
 

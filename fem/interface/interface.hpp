@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -23,6 +24,9 @@ struct InterfaceFace {
   /// Entries of nodal vectors with the rotation of side b, one axis after the other for each node; empty: the interface leaves
   /// micro-rotations alone.
   std::vector<int> rotation_b = {};
+  /// Where side b is a wall of beams: the ground's nodes on its other side, at the same places; empty where no ground is, and on the
+  /// other side's faces.
+  std::vector<int> nodes_across = {};
 };
 
 /// Name, law and friction of an interface.
@@ -96,6 +100,12 @@ class Interface : public Contribution<dim> {
   /// solver is made.
   void take_water(const Problem<dim>& problem);
 
+  /// Tells of other walls at nodes of side b. Where one of them stands before this one comes, the ground does not hang on the node,
+  /// but together across it.
+  void meet(std::map<int, std::vector<std::shared_ptr<const Contribution<dim>>>> walls) {
+    met_ = std::move(walls);
+  }
+
   /// From now on friction, cohesion and tensile strength are those of the settings over a factor. A share of the ground's friction
   /// follows the ground.
   void divide_strength(double factor);
@@ -162,6 +172,7 @@ class Interface : public Contribution<dim> {
 
   InterfaceSettings settings_;
   std::vector<Element> elements_;
+  std::map<int, std::vector<std::shared_ptr<const Contribution<dim>>>> met_;
   bool told_slip_ = false;
   std::vector<std::string> notes_;
 };

@@ -70,7 +70,19 @@ bool Interface<dim>::is_there(std::size_t e, int stage, const std::vector<char>&
 template <int dim>
 std::vector<std::pair<int, int>> Interface<dim>::tied_nodes(int stage) const {
   if (!settings_.parts_ground || stage >= this->life.begin) return {};
-  return joined_nodes();
+  std::vector<std::pair<int, int>> pairs;
+  for (const Element& element : elements_) {
+    const InterfaceFace<dim>& face = element.face;
+    for (std::size_t a = 0; a < face.nodes_a.size(); ++a) {
+      const auto met = met_.find(face.nodes_b[a]);
+      const bool is_taken = met != met_.end() && std::ranges::any_of(met->second, [&](const auto& wall) {
+                              return wall->life.holds(stage);
+                            });
+      const std::vector<int>& others = is_taken ? face.nodes_across : face.nodes_b;
+      if (!others.empty() && others[a] != face.nodes_a[a]) pairs.emplace_back(face.nodes_a[a], others[a]);
+    }
+  }
+  return pairs;
 }
 
 template <int dim>

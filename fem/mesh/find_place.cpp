@@ -3,7 +3,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace polargrain::fem {
 namespace {
@@ -71,7 +74,39 @@ Probe<dim> PlaceFinder<dim>::find(const typename Cosserat<dim>::Place& place, do
   return probe;
 }
 
+template <int dim>
+std::vector<Probe<dim>> sides_at(const Mesh<dim>& mesh, const Probe<dim>& probe,
+                                 const std::vector<int>& materials) {
+  constexpr double kNoShare = 1e-6;  // a place on a side may lie kOnSide beyond it
+  std::map<std::pair<int, std::vector<int>>, Probe<dim>> sides;
+  for (const typename Probe<dim>::Inside& inside : probe.elements) {
+    const auto number = static_cast<std::size_t>(inside.element);
+    const Element<dim>& element = mesh.elements[number];
+    const auto shares = element.type->shape_functions(inside.reference).value;
+    std::vector<int> carrying;
+    for (std::size_t a = 0; a < element.nodes.size(); ++a)
+      if (std::abs(shares(static_cast<Eigen::Index>(a))) > kNoShare) carrying.push_back(element.nodes[a]);
+    std::ranges::sort(carrying);
+    sides[{materials.empty() ? 0 : materials[number], std::move(carrying)}].elements.push_back(inside);
+  }
+  std::vector<Probe<dim>> found;
+  for (auto& [key, side] : sides) found.push_back(std::move(side));
+  return found;
+}
+
+template <int dim>
+typename Cosserat<dim>::Place middle_of(const Mesh<dim>& mesh, const Probe<dim>& probe) {
+  typename Cosserat<dim>::Place sum = Cosserat<dim>::Place::Zero();
+  for (const typename Probe<dim>::Inside& inside : probe.elements)
+    sum += mesh.element_positions(inside.element).colwise().mean().transpose();
+  return sum / static_cast<double>(probe.elements.size());
+}
+
 template class PlaceFinder<2>;
 template class PlaceFinder<3>;
+template std::vector<Probe<2>> sides_at<2>(const Mesh<2>&, const Probe<2>&, const std::vector<int>&);
+template std::vector<Probe<3>> sides_at<3>(const Mesh<3>&, const Probe<3>&, const std::vector<int>&);
+template Eigen::Vector2d middle_of<2>(const Mesh<2>&, const Probe<2>&);
+template Eigen::Vector3d middle_of<3>(const Mesh<3>&, const Probe<3>&);
 
 }  // namespace polargrain::fem

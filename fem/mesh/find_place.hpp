@@ -41,6 +41,17 @@ class PlaceFinder {
       boxes_;  ///< around each element, with some room: curved sides may bulge beyond their nodes
 };
 
+/// The sides of a place, on each of which it has one value. Elements are on two sides where an interface parts them: the nodes that
+/// carry the place, whose shape functions are not zero there, differ.
+/// @param materials numbers of each element, for stresses, which jump from one to another; empty: for displacements
+template <int dim>
+std::vector<Probe<dim>> sides_at(const Mesh<dim>& mesh, const Probe<dim>& probe,
+                                 const std::vector<int>& materials = {});
+
+/// The mean of the middles of the elements of a probe, m: where one of its sides lies.
+template <int dim>
+typename Cosserat<dim>::Place middle_of(const Mesh<dim>& mesh, const Probe<dim>& probe);
+
 /// Of one place. @param place on the mesh as it was made, m
 template <int dim>
 Probe<dim> find_place(const Mesh<dim>& mesh, const typename Cosserat<dim>::Place& place) {

@@ -46,8 +46,10 @@ std::vector<std::vector<int>> keys_along(const Mesh<dim>& mesh, const std::strin
   for (const auto& [key, of_face] : sides)
     if (std::ranges::includes(nodes, key)) keys.push_back(key);
   if (keys.empty())
-    throw RunError(
-        fmt::format("the nodes of '{}' make up no whole {} of an element", name, dim == 2 ? "side" : "face"));
+    throw RunError(fmt::format(
+        "the nodes of '{}' make up no whole {} of an element; name a boundary, or a level between "
+        "two rows of elements",
+        name, dim == 2 ? "side" : "face"));
   return keys;
 }
 
@@ -79,9 +81,10 @@ std::vector<std::pair<std::vector<int>, bool>> edges_of(const TwoSidedFace<dim>&
   }
 }
 
-/// Turns faces so that neighbours go through the edge that they share in opposite senses.
+/// Turns faces so that neighbours go through the edge that they share in opposite senses. Faces with ground on one side alone
+/// cannot be turned: they decide for those that hang on them.
 template <int dim>
-void orient(const Mesh<dim>& mesh, std::vector<TwoSidedFace<dim>>& faces) {
+void orient(const Mesh<dim>& mesh, const std::string& name, std::vector<TwoSidedFace<dim>>& faces) {
   std::map<std::vector<int>, std::vector<std::size_t>> at_edge;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (const auto& [edge, sense] : edges_of(faces[f])) at_edge[edge].push_back(f);
@@ -91,8 +94,8 @@ void orient(const Mesh<dim>& mesh, std::vector<TwoSidedFace<dim>>& faces) {
     return false;
   };
   std::vector<char> done(faces.size(), 0);
-  for (std::size_t seed = 0; seed < faces.size(); ++seed) {
-    if (done[seed] != 0) continue;
+  const auto turn_all_from = [&](std::size_t seed) {
+    if (done[seed] != 0) return;
     done[seed] = 1;
     std::vector<std::size_t> front{seed};
     while (!front.empty()) {
@@ -104,12 +107,21 @@ void orient(const Mesh<dim>& mesh, std::vector<TwoSidedFace<dim>>& faces) {
         const std::size_t other = here[0] == f ? here[1] : here[0];
         if (done[other] != 0) continue;
         done[other] = 1;
-        if (sense_at(other, edge) == sense && faces[other].second)
+        if (sense_at(other, edge) == sense) {
+          if (!faces[other].second)
+            throw RunError(fmt::format(
+                "parts of '{}' have ground on one side alone, and not all on the same side: it changes at {}; "
+                "give the parts names of their own",
+                name, place_text<dim>(mesh.nodes[static_cast<std::size_t>(edge.front())])));
           faces[other] = faces[other].seen_from_second(mesh);
+        }
         front.push_back(other);
       }
     }
-  }
+  };
+  for (std::size_t seed = 0; seed < faces.size(); ++seed)
+    if (!faces[seed].second) turn_all_from(seed);
+  for (std::size_t seed = 0; seed < faces.size(); ++seed) turn_all_from(seed);
 }
 
 /// Puts faces of the plane behind each other, chain by chain.
@@ -189,7 +201,7 @@ std::vector<TwoSidedFace<dim>> faces_along(const Mesh<dim>& mesh, const std::str
   std::vector<TwoSidedFace<dim>> faces;
   for (const std::vector<int>& key : keys_along(mesh, name, sides))
     faces.push_back(face_of(mesh, sides.at(key)));
-  orient(mesh, faces);
+  orient(mesh, name, faces);
   if constexpr (dim == 2) order_along(faces);
   return faces;
 }
@@ -249,16 +261,21 @@ void split_along(Mesh<dim>& mesh, std::vector<std::vector<TwoSidedFace<dim>>>& c
 
 template <int dim>
 OwnNodes<dim> add_own_nodes(Mesh<dim>& mesh, const std::vector<TwoSidedFace<dim>>& originals) {
+  std::map<int, int> own_of;
+  return add_own_nodes(mesh, originals, own_of);
+}
+
+template <int dim>
+OwnNodes<dim> add_own_nodes(Mesh<dim>& mesh, const std::vector<TwoSidedFace<dim>>& originals,
+                            std::map<int, int>& own_of) {
   OwnNodes<dim> own;
-  std::map<int, int> copy_of;
+  std::set<int> listed;
   for (const TwoSidedFace<dim>& face : originals) {
     std::vector<int>& nodes = own.face_nodes.emplace_back();
     for (const int node : face.first_nodes) {
-      const auto [place, added] = copy_of.try_emplace(node, static_cast<int>(mesh.nodes.size()));
-      if (added) {
-        mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
-        own.nodes.push_back(place->second);
-      }
+      const auto [place, added] = own_of.try_emplace(node, static_cast<int>(mesh.nodes.size()));
+      if (added) mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+      if (listed.insert(place->second).second) own.nodes.push_back(place->second);
       nodes.push_back(place->second);
     }
   }
@@ -272,6 +289,8 @@ template std::vector<TwoSidedFace<3>> faces_along<3>(const Mesh<3>&, const std::
 template void split_along<2>(Mesh<2>&, std::vector<std::vector<TwoSidedFace<2>>>&);
 template void split_along<3>(Mesh<3>&, std::vector<std::vector<TwoSidedFace<3>>>&);
 template OwnNodes<2> add_own_nodes<2>(Mesh<2>&, const std::vector<TwoSidedFace<2>>&);
+template OwnNodes<2> add_own_nodes<2>(Mesh<2>&, const std::vector<TwoSidedFace<2>>&, std::map<int, int>&);
 template OwnNodes<3> add_own_nodes<3>(Mesh<3>&, const std::vector<TwoSidedFace<3>>&);
+template OwnNodes<3> add_own_nodes<3>(Mesh<3>&, const std::vector<TwoSidedFace<3>>&, std::map<int, int>&);
 
 }  // namespace polargrain::fem

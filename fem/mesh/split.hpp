@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,8 @@ struct TwoSidedFace {
 };
 
 /// The faces of a boundary, or of a node set that holds all nodes of whole faces. Neighbours have their first side on
-/// the same side; in the plane they follow each other along the curve, from where it begins.
-/// @throws RunError when nothing has that name or it holds no face.
+/// the same side, where ground is all along; in the plane they follow each other along the curve, from where it begins.
+/// @throws RunError when nothing has that name, it holds no face, or there is no such side
 template <int dim>
 std::vector<TwoSidedFace<dim>> faces_along(const Mesh<dim>& mesh, const std::string& name);
 
@@ -45,5 +46,9 @@ struct OwnNodes {
 /// @param originals the faces as they were before split_along, which says what nodes are at one place
 template <int dim>
 OwnNodes<dim> add_own_nodes(Mesh<dim>& mesh, const std::vector<TwoSidedFace<dim>>& originals);
+/// The same for bodies that are one where they meet. @param own_of own nodes of those before, by original node: taken over, added to
+template <int dim>
+OwnNodes<dim> add_own_nodes(Mesh<dim>& mesh, const std::vector<TwoSidedFace<dim>>& originals,
+                            std::map<int, int>& own_of);
 
 }  // namespace polargrain::fem

@@ -12,7 +12,7 @@ namespace polargrain::fem {
 /// The given displacements that make a base of a body along an axis.
 template <int dim>
 struct BaseAlong {
-  /// The first that is accelerated; null where nothing is.
+  /// The first that is accelerated, or else the first of all where all move alike; null where there is no base.
   const PrescribedDof<dim>* item = nullptr;
   /// The first that moves or holds the body in another way; null where all move alike.
   const PrescribedDof<dim>* other = nullptr;
@@ -32,15 +32,19 @@ BaseAlong<dim> base_along(const Problem<dim>& problem, int stage, Dof dof) {
   };
   BaseAlong<dim> base;
   base.item = first([](const PrescribedDof<dim>* item) { return item->value.is_accelerated(); });
+  if (base.item == nullptr)
+    base.item = first([](const PrescribedDof<dim>* item) { return item->value.changes(); });
   if (base.item == nullptr) return base;
   base.other = first([&](const PrescribedDof<dim>* item) {
     return item->profile != nullptr || !(item->value == base.item->value);
   });
+  // A plate that is pushed towards a support shakes nothing: the support is the base, and it stands.
+  if (base.other != nullptr && !base.item->value.is_accelerated()) return {};
   return base;
 }
 
-/// The motion of the base that shakes a body: along each axis that of `accelerate`, where no support moves otherwise; else
-/// there is no base along that axis.
+/// The motion of the base that shakes a body: along each axis that of `accelerate` or `move`, where no support moves otherwise;
+/// else there is no base along that axis.
 template <int dim>
 class BaseMotion {
  public:

@@ -50,8 +50,9 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
       if (entry < 0 || equation_[static_cast<std::size_t>(entry)] < 0) continue;
       equation_[static_cast<std::size_t>(entry)] = -1;
       const typename Cosserat<dim>::Place& place = mesh.nodes[static_cast<std::size_t>(node)];
-      given_.push_back({static_cast<std::size_t>(entry), item->factor_at(place), &item->value,
-                        item->offset_at(place), offsets.size() == 0 ? 0.0 : offsets(entry)});
+      Given& value = given_.emplace_back(Given{static_cast<std::size_t>(entry), item->factor_at(place),
+                                               &item->value, item->offset_at(place)});
+      if (offsets.size() > 0) (item->from_here ? value.offset : value.fading) += offsets(entry);
     }
   }
   const auto mechanics = static_cast<std::size_t>(places_.mechanics());
@@ -200,7 +201,7 @@ Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const
         if (entry < 0 || givers[static_cast<std::size_t>(entry)].item != nullptr) continue;
         const typename Cosserat<dim>::Place& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
         givers[static_cast<std::size_t>(entry)] = {item, &item->value, item->factor_at(place),
-                                                   item->offset_at(place), false};
+                                                   item->offset_at(place), item->from_here};
       }
     }
     return givers;
@@ -211,7 +212,7 @@ Eigen::VectorXd Constraints<dim>::new_offsets(const Problem<dim>& problem, const
   for (std::size_t k = 0; k < now.size(); ++k) {
     if (now[k].item == nullptr) continue;
     const auto entry = static_cast<Eigen::Index>(k);
-    if (entry >= places.mechanics() && before[k].item == nullptr) continue;
+    if (entry >= places.mechanics() && before[k].item == nullptr && !now[k].from_here) continue;
     if (now[k].item != before[k].item) {
       offsets(entry) = state.displacement(entry) - now[k].at(state.time);
     } else if (state.offsets.size() > 0 && now[k].from_here) {

@@ -21,7 +21,7 @@ class Constraints {
   Constraints(const Problem<dim>& problem, int stage, const Eigen::VectorXd& offsets);
 
   /// The offsets when a stage begins: an entry that another item gives from now on is where it is, less the value of that
-  /// item. An entry of a field that no item gave before takes its value at once.
+  /// item. An entry of a field that no item gave before takes its value at once, unless the item counts from here.
   /// @param state of the stage before @param stage that begins
   static Eigen::VectorXd new_offsets(const Problem<dim>& problem, const SolverState<dim>& state, int stage);
 

@@ -43,6 +43,12 @@ struct Factors : Eigen::UmfPackLU<Eigen::SparseMatrix<double>> {
   [[nodiscard]] double memory() const {
     return m_umfpackInfo[UMFPACK_PEAK_MEMORY_ESTIMATE] * m_umfpackInfo[UMFPACK_SIZE_OF_UNIT];
   }
+  [[nodiscard]] int sign_of_determinant() const {
+    double mantissa = 0.0;
+    double exponent = 0.0;
+    if (umfpack_di_get_determinant(&mantissa, &exponent, m_numeric, nullptr) != UMFPACK_OK) return 0;
+    return (mantissa > 0.0 ? 1 : 0) - (mantissa < 0.0 ? 1 : 0);
+  }
 };
 
 /// UMFPACK's bound allows for pivots off the diagonal, which these matrices hardly need.
@@ -102,6 +108,10 @@ bool DirectSolver::factorise(const Eigen::SparseMatrix<double>& matrix) {
   }
   lu.factorize(matrix);
   return lu.info() == Eigen::Success;
+}
+
+int DirectSolver::sign_of_determinant() const {
+  return implementation_->lu.sign_of_determinant();
 }
 
 const std::string& DirectSolver::why_not() const {

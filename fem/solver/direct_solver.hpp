@@ -18,6 +18,8 @@ class DirectSolver {
   void forget_pattern();
   /// @return false when the matrix is singular or has entries that are not finite, or when its factors do not fit into memory
   [[nodiscard]] bool factorise(const Eigen::SparseMatrix<double>& matrix);
+  /// Of the matrix factorised last; 0: not known.
+  [[nodiscard]] int sign_of_determinant() const;
   /// Why factorise has returned false.
   [[nodiscard]] const std::string& why_not() const;
   /// Solution with the matrix factorised last, which must still be alive and unchanged.

@@ -224,7 +224,7 @@ void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
   }
   check_ties(problem, check_prescribed_once(problem, stage, messages), stage, messages);
   for (const BoundaryLoad<dim>& load : problem.boundary_loads) {
-    if (load.life.begin != stage || !sides_in_stage(problem.mesh, load.on, there).empty()) continue;
+    if (load.life.begin != stage || !sides_in_stage(problem, load, stage).empty()) continue;
     messages.push_back(fmt::format(
         "the load on '{0}' begins here, where '{0}' is no boundary of what is there: the elements on both of its sides are "
         "there, or neither; let it begin with the stage that removes or places one side",

@@ -84,6 +84,10 @@ Eigen::VectorXd LinearSolver::solve(const Eigen::VectorXd& right_side) const {
   return own.direct.solve(right_side);
 }
 
+int LinearSolver::sign_of_determinant() const {
+  return implementation_->is_direct ? implementation_->direct.sign_of_determinant() : 0;
+}
+
 std::string LinearSolver::news() {
   return std::exchange(implementation_->news, {});
 }

@@ -32,6 +32,8 @@ class LinearSolver {
   /// converge and a direct solution fails, as above.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
+  /// Of the matrix factorised last; 0: not known, as of iterations.
+  [[nodiscard]] int sign_of_determinant() const;
   /// For a log, since the last call: which solver is at work and why. Empty when nothing has changed.
   [[nodiscard]] std::string news();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fem/solver/loads.hpp"
 
+#include <array>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -118,7 +120,7 @@ Loads<dim>::Loads(const Problem<dim>& problem, int stage)
       size_(entry_of<dim>(static_cast<Eigen::Index>(problem.mesh.nodes.size()))),
       nodal_size_(problem.places().size()) {
   for (const BoundaryLoad<dim>& load : problem.boundary_loads)
-    if (load.life.holds(stage)) add_boundary_load(problem, load);
+    if (load.life.holds(stage)) add_boundary_load(problem, load, stage);
   for (const NodeLoad& load : problem.node_loads)
     if (load.life.holds(stage)) add_node_load(problem, load);
   for (const BodyLoad<dim>& load : problem.body_loads)
@@ -126,8 +128,8 @@ Loads<dim>::Loads(const Problem<dim>& problem, int stage)
 }
 
 template <int dim>
-void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load) {
-  const std::vector<BoundarySide> sides = sides_in_stage(problem.mesh, load.on, there_);
+void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load, int stage) {
+  const std::vector<BoundarySide> sides = sides_in_stage(problem, load, stage);
   if (load.pressure.largest_magnitude() > 0.0) {
     Pressure& pressure = pressures_.emplace_back(Pressure{parts_.size(), &load, sides, {}});
     if (problem.deformation == Deformation::large) {
@@ -150,12 +152,30 @@ void Loads<dim>::add_boundary_load(const Problem<dim>& problem, const BoundaryLo
 
 template <int dim>
 void Loads<dim>::add_node_load(const Problem<dim>& problem, const NodeLoad& load) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(size_);
-  std::vector<char> there;
-  if (!there_.empty()) there = nodes_in_stage(problem.mesh, there_);
-  for (const int node : problem.mesh.nodes_on(load.on))
-    if (there.empty() || there[static_cast<std::size_t>(node)] != 0)
-      forces(entry_of<dim>(node, load.dof)) += 1.0;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
+  std::vector<int> nodes = problem.mesh.nodes_on(load.on);
+  if (!there_.empty()) {
+    const std::vector<char> there = nodes_in_stage(problem.mesh, there_);
+    std::erase_if(nodes, [&](int node) { return there[static_cast<std::size_t>(node)] == 0; });
+  }
+  const FieldPlaces<dim> places = problem.places();
+  const std::size_t field = number_of_field(problem.fields, load.field);
+  struct Entries {
+    std::vector<int> of_dof;
+    std::vector<int> of_field;
+  };
+  std::map<std::array<double, dim>, Entries> at_place;
+  for (const int node : nodes) {
+    std::array<double, dim> place;
+    Eigen::Map<Place<dim>>(place.data()) = problem.mesh.nodes[static_cast<std::size_t>(node)];
+    Entries& here = at_place[place];
+    const int in_field = field < places.fields() ? places.entry(field, node) : -1;
+    in_field >= 0 ? here.of_field.push_back(in_field) : here.of_dof.push_back(entry_of<dim>(node, load.dof));
+  }
+  for (const auto& [place, here] : at_place) {
+    const std::vector<int>& entries = here.of_field.empty() ? here.of_dof : here.of_field;
+    for (const int entry : entries) forces(entry) += 1.0 / static_cast<double>(entries.size());
+  }
   parts_.push_back({std::move(forces), &load.value});
 }
 
@@ -245,24 +265,34 @@ std::vector<ShareOfSide<dim>> shares_of_boundary(const Mesh<dim>& mesh, const st
 template <int dim>
 Eigen::VectorXd Loads<dim>::at(double time) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
-  for (const Part& part : parts_) forces.head(size_) += part.factor->at(time) * part.forces;
+  for (const Part& part : parts_) forces.head(part.forces.size()) += part.factor->at(time) * part.forces;
   return forces;
 }
 
 template <int dim>
 Eigen::VectorXd Loads<dim>::slope(double time) const {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(nodal_size_);
-  for (const Part& part : parts_) forces.head(size_) += part.factor->slope(time) * part.forces;
+  for (const Part& part : parts_) forces.head(part.forces.size()) += part.factor->slope(time) * part.forces;
   return forces;
 }
 
 template <int dim>
 double Loads<dim>::largest_force() const {
+  return sum_of_forces([](const TimeTable& table) { return table.largest_magnitude(); });
+}
+
+template <int dim>
+double Loads<dim>::largest_change(double time) const {
+  return sum_of_forces([time](const TimeTable& table) { return table.largest_change(time); });
+}
+
+template <int dim>
+template <class Factor>
+double Loads<dim>::sum_of_forces(Factor factor_of) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     for (Eigen::Index entry = 0; entry < size_; ++entry) {
-      if (!is_rotation(dof_at<dim>(entry)))
-        sum += std::abs(part.forces(entry)) * part.factor->largest_magnitude();
+      if (!is_rotation(dof_at<dim>(entry))) sum += std::abs(part.forces(entry)) * factor_of(*part.factor);
     }
   }
   return sum;

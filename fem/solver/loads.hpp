@@ -54,19 +54,24 @@ class Loads {
   [[nodiscard]] Eigen::VectorXd linearised(double time, const Eigen::VectorXd& nodal) const;
   /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
   [[nodiscard]] double largest_force() const;
+  /// The same of what changes after `time`.
+  [[nodiscard]] double largest_change(double time) const;
 
  private:
   struct Part {
     Eigen::VectorXd forces;  ///< for the value 1 of the table
     const TimeTable* factor;
   };
-  void add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load);
+  void add_boundary_load(const Problem<dim>& problem, const BoundaryLoad<dim>& load, int stage);
   void add_node_load(const Problem<dim>& problem, const NodeLoad& load);
   void add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load);
 
+  template <class Factor>
+  [[nodiscard]] double sum_of_forces(Factor factor_of) const;
+
   const Problem<dim>* problem_;
   std::vector<char> there_;  ///< by element; empty: all of them
-  Eigen::Index size_;        ///< of the parts, which know displacements and rotations alone
+  Eigen::Index size_;        ///< of the parts that know displacements and rotations alone
   Eigen::Index nodal_size_;  ///< fields included
   std::vector<Part> parts_;
   struct Pressure {

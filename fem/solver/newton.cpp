@@ -330,6 +330,16 @@ bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
 }
 
 template <int dim>
+void Newton<dim>::watch_stability(const StepGoal& goal) {
+  if (problem.deformation != Deformation::large || !goal.controls_time() || !problem.fields.empty()) return;
+  // Jumps of grains turn the sign too.
+  if (forces_of_noise<dim>(discretisation, problem.continuum, state.responses).size() > 0) return;
+  const int sign = linear_solver_.sign_of_determinant();
+  if (first_sign_ == 0) first_sign_ = sign;
+  has_lost_stability_ = has_lost_stability_ || (sign != 0 && sign != first_sign_);
+}
+
+template <int dim>
 void Newton<dim>::tell_of_solver() {
   if (const std::string news = linear_solver_.news(); observer && !news.empty()) observer->solves(news);
 }
@@ -447,6 +457,7 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
     const std::vector<Response<dim>>& known = predictor ? state.responses : trial_;
     if (!correction(goal, iterate, known, right_side, change, report))
       return {false, why_singular<dim>(known)};
+    if (predictor) watch_stability(goal);
     const Attempt limited = predictor ? limit_predictor(goal, iterate, change, report)
                                       : limit_correction(iterate, change, report);
     if (!limited.converged) return limited;

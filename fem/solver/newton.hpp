@@ -68,6 +68,9 @@ class Newton {
   /// back. @throws RunError where the nodes have moved so that an element that comes is inside out, or nothing resists a
   /// micro-rotation of what is there
   void begin_stage(int stage);
+  /// Sum of the nodal forces that the steps to come let go or change, N/m; zero where movements are given, as nobody knows
+  /// the forces that they need.
+  [[nodiscard]] double forces_to_change() const;
   /// The stage and the forces held back in it, for checkpoints.
   void save_stage(ArchiveWriter& archive) const;
   void restore_stage(ArchiveReader& archive);
@@ -105,6 +108,9 @@ class Newton {
   [[nodiscard]] double released() const { return released_; }
   /// Where the attempt that has just failed was out of balance; to be asked before revert().
   [[nodiscard]] Trouble trouble(const std::string& reason, const StepReport& report) const;
+  /// Large deformation under given loads or movements, laws alone: whether the determinant of the tangent at a committed state
+  /// had another sign than at the first one.
+  [[nodiscard]] bool has_lost_stability() const { return has_lost_stability_; }
   /// Drops the trial states.
   void revert();
   /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
@@ -172,6 +178,8 @@ class Newton {
   /// Hands on what the observer should know of the linear solver.
   void tell_of_solver();
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
+  /// Looks at the tangent of the committed state, which must be the one factorised last.
+  void watch_stability(const StepGoal& goal);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
                                 const std::vector<Response<dim>>& responses,
                                 const Eigen::VectorXd& right_side, Correction& change, StepReport& report);
@@ -200,6 +208,8 @@ class Newton {
   double body_size_;  ///< diagonal of the box around the mesh, m
   TangentMatrix<dim> tangent_;
   LinearSolver linear_solver_;
+  int first_sign_ = 0;  ///< of the determinant of the tangent; 0: not known yet
+  bool has_lost_stability_ = false;
   Eigen::VectorXd scaling_;  ///< of the equations (equation_scaling.hpp); empty without fields
   NodalForces contributed_;  ///< of the evaluation made last
   Anderson anderson_;

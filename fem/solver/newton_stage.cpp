@@ -55,6 +55,17 @@ void Newton<dim>::begin_stage(int stage) {
 }
 
 template <int dim>
+double Newton<dim>::forces_to_change() const {
+  for (const PrescribedDof<dim>* given : in_precedence(problem, state.stage))
+    if (given->value.largest_change(state.time) > 0.0) return 0.0;
+  double sum = loads.largest_change(state.time);
+  for (Eigen::Index entry = 0; entry < std::min(withheld_.size(), constraints.places().mechanics()); ++entry)
+    if (constraints.is_free(static_cast<std::size_t>(entry)) && !is_rotation(dof_at<dim>(entry)))
+      sum += (1.0 - released_) * std::abs(withheld_(entry));
+  return sum;
+}
+
+template <int dim>
 void Newton<dim>::note_placed(const std::vector<char>& there_before) {
   if (there_before.empty() || problem.deformation == Deformation::large) return;
   const std::vector<Increment<dim>> moved = discretisation.increments(state.displacement);
@@ -144,13 +155,23 @@ void Newton<dim>::count_supports_from_here() {
   Eigen::VectorXd given = state.displacement;
   constraints.apply(state.time, given);
   state.offsets = state.displacement - given;
-  const Eigen::Index mechanics = constraints.places().mechanics();
-  state.offsets.tail(state.offsets.size() - mechanics).setZero();  // fields take their values at once
+  const FieldPlaces<dim>& places = constraints.places();
+  Eigen::VectorXd kept = Eigen::VectorXd::Zero(state.offsets.size());
+  kept.head(places.mechanics())
+      .setOnes();  // fields take their values at once, unless an item counts from here
+  for (const PrescribedField<dim>& item : problem.prescribed_fields) {
+    if (!item.from_here) continue;
+    for (const int node : problem.mesh.nodes_on(item.on))
+      if (const int entry = places.entry(number_of_field(problem.fields, item.field), node); entry >= 0)
+        kept(entry) = 1.0;
+  }
+  state.offsets = state.offsets.cwiseProduct(kept);
   enter_stage();
 }
 
 template void Newton<2>::enter_stage();
 template void Newton<2>::begin_stage(int);
+template double Newton<2>::forces_to_change() const;
 template Attempt Newton<2>::begin_at_rest();
 template void Newton<2>::note_placed(const std::vector<char>&);
 template void Newton<2>::begin_contributions(int, bool);
@@ -160,6 +181,7 @@ template void Newton<2>::restore_stage(ArchiveReader&);
 template void Newton<2>::count_supports_from_here();
 template void Newton<3>::enter_stage();
 template void Newton<3>::begin_stage(int);
+template double Newton<3>::forces_to_change() const;
 template Attempt Newton<3>::begin_at_rest();
 template void Newton<3>::note_placed(const std::vector<char>&);
 template void Newton<3>::begin_contributions(int, bool);

@@ -39,6 +39,7 @@ struct PrescribedField {
   ByPlace profile = {};  ///< 1 everywhere when empty
   ByPlace offset = {};   ///< 0 everywhere when empty
   Lifetime life = {};
+  bool from_here = false;  ///< as of PrescribedDof
 
   [[nodiscard]] double factor_at(const typename Cosserat<dim>::Place& x) const {
     return profile ? profile(x) : 1.0;

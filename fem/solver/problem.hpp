@@ -61,12 +61,14 @@ struct BoundaryLoad {
   Lifetime life = {};
 };
 
-/// Force (N; in the plane N/m of thickness) or moment (N m; N) on each node of a boundary or node set.
+/// Force (N; in the plane N/m of thickness) or moment (N m; N) at each place of a boundary or node set. Nodes at one place share
+/// it: an interface has made several of one.
 struct NodeLoad {
   std::string on;
   Dof dof;
   TimeTable value;
   Lifetime life = {};
+  std::string field = {};  ///< takes it in place of the dof where a node carries it: the rotation of a beam
 };
 
 /// Force per volume (N/m^3) along each axis and couple per volume (N/m^2) about each axis of rotation, by position.

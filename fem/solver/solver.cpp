@@ -250,6 +250,13 @@ void Solver<dim>::begin_stage(int stage) {
 }
 
 template <int dim>
+double Solver<dim>::tolerated_share_of_change() const {
+  const double change = implementation_->forces_to_change();
+  if (!(change > 0.0)) return 0.0;
+  return implementation_->options.force_tolerance * state().reference_force / change;
+}
+
+template <int dim>
 void Solver<dim>::reset_displacements() {
   implementation_->state.shown_from = state().displacement;
 }
@@ -476,6 +483,11 @@ std::string Solver<dim>::left_out() const {
   if (problem().deformation == Deformation::large) return {};
   return left_out_by_small_deformation(implementation_->discretisation, state().displacement,
                                        state().placed_with);
+}
+
+template <int dim>
+bool Solver<dim>::has_lost_stability() const {
+  return implementation_->has_lost_stability();
 }
 
 template class Solver<2>;

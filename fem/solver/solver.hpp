@@ -229,6 +229,9 @@ class Solver {
   /// @param end as save has written it @param regions_of_end names, in their order
   /// @throws RunError where a region of the problem is missing there, or a material cannot take its states over
   StartReport start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end);
+  /// The largest unbalanced force that the tolerance lets pass, over the sum of the nodal forces that the steps to come let
+  /// go or change; zero where that is not known: movements are given.
+  [[nodiscard]] double tolerated_share_of_change() const;
   /// From now on results show displacements and micro-rotations less those of this moment. Nothing else changes.
   void reset_displacements();
 
@@ -323,6 +326,9 @@ class Solver {
   /// The effects that small deformation leaves out of the committed state (left_out.hpp); empty where small, and in large
   /// deformation.
   [[nodiscard]] std::string left_out() const;
+  /// Whether a committed state before the last step was unstable or past a bifurcation, as far as the sign of the determinant of
+  /// the tangent tells (Newton::has_lost_stability): two bifurcations within a step hide each other.
+  [[nodiscard]] bool has_lost_stability() const;
 
  private:
   struct Implementation;

@@ -29,10 +29,27 @@ std::vector<char> nodes_of_elements(const Mesh<dim>& mesh, const std::vector<cha
   return nodes;
 }
 
+namespace {
+
+/// Whether each element carries a load that acts on it inside of the body.
 template <int dim>
-std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::string& boundary,
-                                         const std::vector<char>& there) {
-  const std::vector<BoundarySide>& sides = mesh.boundaries.at(boundary);
+std::vector<char> elements_inside_of(const Problem<dim>& problem, const BoundaryLoad<dim>& load, int stage) {
+  std::vector<char> stands(problem.mesh.elements.size(), 1);
+  for (const auto& [region, life] : problem.lifetimes) {
+    if (load.life.begin == 0 ? life.holds(0) && life.holds(stage) : life.is_whole()) continue;
+    for (const int e : problem.mesh.regions.at(region)) stands[static_cast<std::size_t>(e)] = 0;
+  }
+  return stands;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<BoundarySide> sides_in_stage(const Problem<dim>& problem, const BoundaryLoad<dim>& load,
+                                         int stage) {
+  const Mesh<dim>& mesh = problem.mesh;
+  const std::vector<BoundarySide>& sides = mesh.boundaries.at(load.on);
+  const std::vector<char> there = elements_in_stage(problem, stage);
   if (there.empty()) return sides;
   // The sides that are there, by their nodes: one, or two where they meet inside of the body.
   std::map<std::vector<int>, std::vector<BoundarySide>> by_nodes;
@@ -50,10 +67,17 @@ std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::strin
         place->second.push_back(side);
     }
   }
+  const std::vector<char> stands = elements_inside_of(problem, load, stage);
+  const auto is_inside = [&](const BoundarySide& side) {
+    return stands[static_cast<std::size_t>(side.element)] != 0;
+  };
   std::vector<BoundarySide> found;
   for (const BoundarySide& side : sides) {
     const std::vector<BoundarySide>& here = by_nodes.at(nodes_of(side));
-    if (here.size() == 1) found.push_back(here.front());
+    if (here.size() == 1)
+      found.push_back(here.front());
+    else if (here.size() == 2 && std::ranges::all_of(here, is_inside))
+      found.push_back(side);
   }
   return found;
 }
@@ -90,9 +114,7 @@ template std::vector<char> nodes_in_stage<2>(const Mesh<2>&, const std::vector<c
 template std::vector<char> nodes_in_stage<3>(const Mesh<3>&, const std::vector<char>&);
 template std::vector<char> nodes_of_elements<2>(const Mesh<2>&, const std::vector<char>&);
 template std::vector<char> nodes_of_elements<3>(const Mesh<3>&, const std::vector<char>&);
-template std::vector<BoundarySide> sides_in_stage<2>(const Mesh<2>&, const std::string&,
-                                                     const std::vector<char>&);
-template std::vector<BoundarySide> sides_in_stage<3>(const Mesh<3>&, const std::string&,
-                                                     const std::vector<char>&);
+template std::vector<BoundarySide> sides_in_stage<2>(const Problem<2>&, const BoundaryLoad<2>&, int);
+template std::vector<BoundarySide> sides_in_stage<3>(const Problem<3>&, const BoundaryLoad<3>&, int);
 
 }  // namespace polargrain::fem

@@ -10,6 +10,8 @@ namespace polargrain::fem {
 
 template <int dim>
 struct Problem;
+template <int dim>
+struct BoundaryLoad;
 
 /// The stages of construction that have a part of a problem: those from `begin` up to, not including, `end`.
 struct Lifetime {
@@ -32,11 +34,12 @@ std::vector<char> nodes_of_elements(const Mesh<dim>& mesh, const std::vector<cha
 template <int dim>
 std::vector<char> nodes_in_stage(const Mesh<dim>& mesh, const std::vector<char>& there);
 
-/// The sides of a boundary that a load acts on: sides of elements that are there. Where a curve lies between two regions, the
-/// side is that of the element left when the other one has gone; while both are there, the curve is inside of the body and
-/// has no such side.
+/// The sides of its boundary that a load acts on in a stage: sides of elements that are there. Where a curve lies between two
+/// regions, the side is that of the element left when the other one has gone. Inside of the body a load of the start acts
+/// where the ground on both sides has stood since then; a load of a later stage where that ground never comes or goes, since
+/// else it is one on a face that is yet to be dug.
 template <int dim>
-std::vector<BoundarySide> sides_in_stage(const Mesh<dim>& mesh, const std::string& boundary,
-                                         const std::vector<char>& there);
+std::vector<BoundarySide> sides_in_stage(const Problem<dim>& problem, const BoundaryLoad<dim>& load,
+                                         int stage);
 
 }  // namespace polargrain::fem

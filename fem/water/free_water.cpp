@@ -124,13 +124,14 @@ std::vector<BareFace<dim>> bare_sides_of_ground(const Mesh<dim>& mesh, const std
 }
 
 template <int dim>
-std::vector<BareFace<dim>> bare_sides_of_wall(const std::shared_ptr<const Interface<dim>>& interface,
-                                              bool one_sided) {
+std::vector<BareFace<dim>> bare_sides_of_wall(
+    const std::shared_ptr<const Interface<dim>>& interface,
+    const std::function<bool(const InterfaceFace<dim>&)>& is_one_sided) {
   std::vector<BareFace<dim>> faces;
   for (std::size_t e = 0; e < interface->elements(); ++e) {
     const InterfaceFace<dim>& face = interface->face(e);
     faces.push_back({face.type, face.nodes_b, -1.0, -1, face.neighbours.front(), interface});
-    if (one_sided) faces.push_back({face.type, face.nodes_b, 1.0, -1, -1, interface});
+    if (is_one_sided(face)) faces.push_back({face.type, face.nodes_b, 1.0, -1, -1, interface});
   }
   return faces;
 }
@@ -236,8 +237,10 @@ std::vector<std::string> FreeWater<dim>::faults_of_stage(const Problem<dim>& pro
 
 template std::vector<BareFace<2>> bare_sides_of_ground<2>(const Mesh<2>&, const std::string&);
 template std::vector<BareFace<3>> bare_sides_of_ground<3>(const Mesh<3>&, const std::string&);
-template std::vector<BareFace<2>> bare_sides_of_wall<2>(const std::shared_ptr<const Interface<2>>&, bool);
-template std::vector<BareFace<3>> bare_sides_of_wall<3>(const std::shared_ptr<const Interface<3>>&, bool);
+template std::vector<BareFace<2>> bare_sides_of_wall<2>(const std::shared_ptr<const Interface<2>>&,
+                                                        const std::function<bool(const InterfaceFace<2>&)>&);
+template std::vector<BareFace<3>> bare_sides_of_wall<3>(const std::shared_ptr<const Interface<3>>&,
+                                                        const std::function<bool(const InterfaceFace<3>&)>&);
 template class FreeWater<2>;
 template class FreeWater<3>;
 

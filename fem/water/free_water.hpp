@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,10 +29,11 @@ struct BareFace {
 template <int dim>
 std::vector<BareFace<dim>> bare_sides_of_ground(const Mesh<dim>& mesh, const std::string& boundary);
 /// The faces of the wall behind an interface: towards its ground, once that has gone; and the other side where no ground was.
-/// @param one_sided whether the wall has ground at this interface alone
+/// @param is_one_sided whether the wall has ground at this interface alone along a face
 template <int dim>
-std::vector<BareFace<dim>> bare_sides_of_wall(const std::shared_ptr<const Interface<dim>>& interface,
-                                              bool one_sided);
+std::vector<BareFace<dim>> bare_sides_of_wall(
+    const std::shared_ptr<const Interface<dim>>& interface,
+    const std::function<bool(const InterfaceFace<dim>&)>& is_one_sided);
 
 /// Free water at rest: a river, a harbour, a pit that is full. It presses on bare faces with its weight over their depth, and not above
 /// its level. The pressure in the pores of the ground there is a PrescribedField or an OpenSide. Small deformation.

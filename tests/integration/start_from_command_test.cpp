@@ -2,6 +2,7 @@
 // A run that starts from the end of another, by the program: directories, profiles, runs that have not come to their end.
 #include <gtest/gtest.h>
 
+#include "common/csv_table.hpp"
 #include "tests/integration/command.hpp"
 
 namespace polargrain::testing {
@@ -117,6 +118,32 @@ TEST_F(StartFromCommand, ProfilesOfAnEarlierRunAreGone) {
   ASSERT_EQ(program("run first.yaml -o first --quiet").status, 0);
   EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00006.csv"));
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00004.csv"));
+}
+
+// Between smooth sides s11 = nu / (1 - nu) s22: 2/3 and 1/9 of 100 kPa. The mean of both is the stress of neither.
+TEST_F(StartFromCommand, AProfileHasARowForEachSideOfABorder) {
+  write(
+      scratch_.path() / "layers.yaml",
+      "title: Two layers\ncontinuum: cauchy\n"
+      "mesh: {rectangle: {size: [1 m, 1 m], elements: [2, 2], regions: {upper: [0, 0.5 m, 1 m, 1 m]}}}\n"
+      "materials: {stiff: {model: elastic, E: 20 MPa, nu: 0.1}, soft: {model: elastic, E: 20 MPa, nu: 0.4}}\n"
+      "regions: {upper: stiff, rest: soft}\n"
+      "boundary: [{on: [left, right], fix: [u1]}, {on: bottom, fix: [u1, u2]}, {on: top, pressure: [[0, 0], [1, "
+      "100 kPa]]}]\n"
+      "steps: {count: 1, tolerance: 1e-9}\nmonitors: {base: {on: bottom, reaction: u2}}\n"
+      "profiles:\n  up: {from: [0.5 m, 0], to: [0.5 m, 1 m], points: 3, values: [s11, u2]}\n"
+      "  down: {from: [0.5 m, 1 m], to: [0.5 m, 0], points: 3, values: [s11]}\n");
+  const Outcome run = program("run layers.yaml -o layers --quiet");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const CsvTable up(scratch_.path() / "layers/profiles/up-00001.csv");
+  ASSERT_EQ(up.rows(), 4U);
+  EXPECT_EQ(up.numbers("distance"), (std::vector<double>{0.0, 0.5, 0.5, 1.0}));
+  EXPECT_NEAR(up.numbers("s11")[1], -100e3 * 2.0 / 3.0, 1e-3);
+  EXPECT_NEAR(up.numbers("s11")[2], -100e3 / 9.0, 1e-3);
+  EXPECT_NEAR(up.numbers("u2")[1], up.numbers("u2")[2], 1e-15);
+  const CsvTable down(scratch_.path() / "layers/profiles/down-00001.csv");
+  ASSERT_EQ(down.rows(), 4U);
+  EXPECT_NEAR(down.numbers("s11")[1], -100e3 / 9.0, 1e-3);
 }
 
 // Found before the run begins.

@@ -10,6 +10,7 @@
 #include "fem/material/local_material.hpp"
 #include "fem/mesh/box.hpp"
 #include "fem/mesh/rectangle.hpp"
+#include "fem/mesh/split.hpp"
 #include "fem/output/probe.hpp"
 #include "fem/solver/geostatic.hpp"
 
@@ -91,6 +92,26 @@ TEST(find_place, every_place_of_a_cube_is_found_once) {
       EXPECT_LT((back - place).norm(), 1e-12) << element;
     }
   }
+}
+
+// An interface from the lower edge up to the middle: the tip, a node of elements on both sides, is one place.
+TEST(sides_at, a_place_has_two_where_an_interface_or_a_border_parts_it) {
+  Mesh<2> mesh = rectangle({{2.0, 2.0}, {2, 2}});
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    if (mesh.nodes[node].x() == 1.0 && mesh.nodes[node].y() <= 1.0)
+      mesh.node_sets["joint"].push_back(static_cast<int>(node));
+  std::vector<std::vector<TwoSidedFace<2>>> faces{faces_along(mesh, "joint")};
+  split_along(mesh, faces);
+  const auto sides = [&](double x, double y, const std::vector<int>& materials = {}) {
+    return sides_at(mesh, find_place<2>(mesh, {x, y}), materials).size();
+  };
+  EXPECT_EQ(sides(1.0, 0.0), 2U);
+  EXPECT_EQ(sides(1.0, 0.7), 2U);
+  EXPECT_EQ(sides(1.0, 1.0), 1U);
+  EXPECT_EQ(sides(1.0, 1.5), 1U);
+  EXPECT_EQ(sides(0.5, 1.0), 1U);
+  EXPECT_EQ(sides(0.5, 1.0, {1, 1, 2, 2}), 2U);  // the upper row is of another material
+  EXPECT_EQ(sides(0.5, 0.5, {1, 1, 2, 2}), 1U);
 }
 
 TEST(find_place, outside_of_the_body_finds_nothing) {

@@ -138,6 +138,42 @@ TEST_P(EveryPlaneElement, own_nodes_lie_on_those_of_the_body) {
     }
 }
 
+/// Takes away the elements with their centre where `gone` says so.
+template <class Gone>
+void dig(Mesh<2>& mesh, Gone gone) {
+  std::vector<Element<2>> left;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (!gone(Eigen::Vector2d(mesh.element_positions(static_cast<int>(e)).colwise().mean().transpose())))
+      left.push_back(mesh.elements[e]);
+  mesh.elements = std::move(left);
+  mesh.boundaries.clear();
+  mesh.regions.clear();
+}
+
+// Whichever face comes first: elements below the pit have the lowest numbers.
+TEST_P(EveryPlaneElement, the_first_side_is_the_one_with_ground_all_along) {
+  for (const double sign : {-1.0, 1.0}) {
+    Mesh<2> mesh = rectangle({{4.0, 4.0}, {4, 4}}, GetParam());
+    name_nodes(mesh, "wall", [](const auto& x) { return x(0) == 2.0 && x(1) >= 1.0; });
+    dig(mesh, [&](const auto& x) { return sign * (x(0) - 2.0) > 0.0 && x(1) > 2.0; });
+    const std::vector<TwoSidedFace<2>> faces = faces_along(mesh, "wall");
+    ASSERT_EQ(faces.size(), 3u);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      EXPECT_LT(sign * (mesh.element_positions(faces[i].first.element).col(0).mean() - 2.0), 0.0) << i;
+      if (i > 0) {
+        EXPECT_EQ(faces[i - 1].first_nodes[1], faces[i].first_nodes[0]) << i;
+      }
+    }
+  }
+}
+
+TEST(mesh_split, refuses_a_curve_with_ground_on_one_side_here_and_on_the_other_there) {
+  Mesh<2> mesh = rectangle({{4.0, 4.0}, {4, 4}});
+  name_nodes(mesh, "wall", [](const auto& x) { return x(0) == 2.0; });
+  dig(mesh, [](const auto& x) { return (x(0) < 2.0 && x(1) > 3.0) || (x(0) > 2.0 && x(1) < 1.0); });
+  EXPECT_THROW((void)faces_along(mesh, "wall"), RunError);
+}
+
 class EverySpaceElement : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Elements, EverySpaceElement, ::testing::ValuesIn(element_names<3>()));
 

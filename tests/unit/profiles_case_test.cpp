@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "common/prefixed_archive.hpp"
+#include "coupler/case/parts.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/mesh/rectangle.hpp"
 #include "fem/solver/end_of_run.hpp"
 #include "tests/support/edited_case.hpp"
 
@@ -53,6 +55,20 @@ TEST_F(ProfilesCase, IsReadWhole) {
   EXPECT_EQ(the_case.start_from, directory() / "first");
 }
 
+// Around a square of 1 m: 4 m against the clock, back to where it begins. By coordinates it would be 2 m and a diagonal.
+TEST(PlacesAlong, AProfileFollowsItsCurve) {
+  using Places = std::vector<std::vector<double>>;
+  fem::Mesh<2> mesh = fem::rectangle({{4.0, 4.0}, {4, 4}}, "Q8R");
+  mesh.boundaries["around"] = {{5, 2}, {5, 0}, {5, 3}, {5, 1}};
+  EXPECT_EQ(places_along(mesh, "around"),
+            (Places{{1, 1}, {1.5, 1}, {2, 1}, {2, 1.5}, {2, 2}, {1.5, 2}, {1, 2}, {1, 1.5}, {1, 1}}));
+  mesh.boundaries["bent"] = {{5, 0}, {5, 3}};
+  EXPECT_EQ(places_along(mesh, "bent"), (Places{{1, 2}, {1, 1.5}, {1, 1}, {1.5, 1}, {2, 1}}));
+  EXPECT_EQ(places_along(mesh, "left").size(), 9U) << "from below upwards";
+  EXPECT_EQ(places_along(mesh, "left").front(), (std::vector<double>{0, 0}));
+  EXPECT_EQ(places_along(mesh, "all").size(), mesh.nodes.size()) << "no curve: by coordinates";
+}
+
 TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_EQ(
       fault("at: [1 m, 0.5 m]", "at: [3 m, 0.5 m]"),
@@ -72,6 +88,48 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
       std::string::npos);
   EXPECT_NE(fault("axis:", "a/b:").find("letters, digits, _ and -"), std::string::npos);
   EXPECT_NE(fault("on: top, values", "on: tap, values").find("14: profile 'trough': on"), std::string::npos);
+}
+
+// The mean of two materials, or of two blocks that slide, is the value of neither.
+TEST_F(ProfilesCase, PlacesWithTwoSidesAreFaults) {
+  const auto told = [&](std::vector<std::pair<std::string, std::string>> changes) {
+    std::string text = kCaseOfProfilesCase;
+    changes.emplace_back("start_from: first\n", "");
+    for (const auto& [good, bad] : changes) text.replace(text.find(good), good.size(), bad);
+    return fault(kCaseOfProfilesCase, text);
+  };
+  const std::pair<std::string, std::string> upper{
+      "elements: [4, 2]}}", "elements: [4, 2], regions: {upper: [0, 0.5 m, 2 m, 1 m]}}}"};
+  const std::pair<std::string, std::string> fill{"\nregions: {all: soil}",
+                                                 "\n  fill: {model: elastic, E: 20 MPa, nu: 0.1}\n"
+                                                 "regions: {upper: fill, rest: soil}"};
+  const std::pair<std::string, std::string> across{"stress: s22", "stress: s11"};
+  // A twentieth of the way to the middle of the lower elements, 0.25 m below.
+  EXPECT_EQ(
+      told({upper, fill, across}),
+      "11: monitor 'deep': at: two materials meet here, and the stress has a value on each side; give a "
+      "place to one side, for example [1 m, 0.4875 m]");
+  EXPECT_EQ(told({upper, fill}), "no fault");  // s22 is the same on both sides of a level border
+  EXPECT_EQ(told({upper, {"{all: soil}", "{upper: soil, rest: soil}"}, across}), "no fault");
+  EXPECT_NE(told({upper,
+                  fill,
+                  {"from: [1 m, 0], to: [1 m, 1 m], points: 5, values: [s22",
+                   "from: [0, 0.5 m], to: [2 m, 0.5 m], points: 5, values: [s11"}})
+                .find("14: profile 'axis': from: the line runs along a border: two materials meet here"),
+            std::string::npos);
+  const std::pair<std::string, std::string> joint{"elements: [4, 2]}}",
+                                                  "elements: [4, 2], lines: {joint: [1 m, 0, 1 m, 1 m]}}}"};
+  const std::pair<std::string, std::string> slide{
+      "\nmonitors:", "\ninterfaces: {slide: {on: joint, friction: 10 deg}}\nmonitors:"};
+  const std::pair<std::string, std::string> beside{"at: [1 m, 0.5 m]", "at: [0.9 m, 0.5 m]"};
+  const std::pair<std::string, std::string> cross{"from: [1 m, 0], to: [1 m, 1 m], points: 5",
+                                                  "from: [0, 0.3 m], to: [2 m, 0.3 m], points: 5"};
+  EXPECT_NE(
+      told({joint, slide, beside, cross})
+          .find("12: monitor 'settled': at: an interface parts the body here, and each side has its own "
+                "value"),
+      std::string::npos);
+  EXPECT_EQ(told({joint, slide, beside, cross, {"at: [1 m, 1 m]", "at: [1.1 m, 1 m]"}}), "no fault");
 }
 
 TEST_F(ProfilesCase, SpreadSlipsTakeNoRunOver) {

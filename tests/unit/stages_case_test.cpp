@@ -91,6 +91,16 @@ TEST_F(StagesCase, tells_what_is_wrong_with_its_stages) {
   EXPECT_EQ(loose.substr(0, 60), "22: stage 'dig': boundary item 1: tie: sides are tied from t");
 }
 
+// 9 m below the surface: the ratio 1 of the region, though the item of all ground is written behind it.
+TEST_F(StagesCase, takes_the_initial_stress_of_a_region_before_that_of_all_ground) {
+  const Case the_case =
+      read("K0: 0.6}]", "K0: 1, region: rest}, {surface: 10 m, unit_weight: 18 kN/m3, K0: 0.6}]");
+  ASSERT_EQ(the_case.problem.initial_stresses.size(), 2U);
+  const auto& last = the_case.problem.initial_stresses.back();
+  EXPECT_EQ(last.region, "rest");
+  EXPECT_DOUBLE_EQ(last.stress({1.0, 1.0})(k11), -9.0 * 18e3);
+}
+
 TEST_F(StagesCase, finds_a_stage_that_leaves_a_body_unheld) {
   // Without its base the ground slides down between the walls.
   std::string found = fault("{name: pull, count: 5, boundary: [{on: right, move: {u1: 2 mm}, name: side}]}",

@@ -439,6 +439,45 @@ TEST(stage, that_leaves_a_body_unheld_is_a_fault) {
   EXPECT_NE(messages.front().find("translation along 1"), std::string::npos);
 }
 
+/// 72 m2 of ground of 18 kN/m3 and a load of 100 kPa on a line of 2 m inside of it; 2 m2 of ground elsewhere go, or come.
+TEST(stage, that_changes_ground_elsewhere_leaves_a_load_inside_of_the_body) {
+  constexpr double kLoad = 2.0 * 100e3;
+  for (const Lifetime life : {Lifetime{0, 1}, Lifetime{1, INT_MAX}}) {
+    for (const int load_begins : {0, 1}) {
+      Problem<2> problem;
+      problem.continuum = Continuum::cauchy;
+      problem.mesh = rectangle({{12.0, 6.0}, {12, 6}});
+      cut_out(problem.mesh, "part", {10, 5}, {12, 6});
+      for (const int e : problem.mesh.regions.at("rest")) {
+        const Eigen::Vector2d centre = problem.mesh.element_positions(e).colwise().mean();
+        if (centre.x() > 2 && centre.x() < 4 && centre.y() > 4 && centre.y() < 5)
+          problem.mesh.boundaries["slab"].push_back({e, 2});
+      }
+      ASSERT_EQ(problem.mesh.boundaries.at("slab").size(), 2U);
+      problem.materials = {{"part", elastic()}, {"rest", elastic()}};
+      problem.stages = {"before", "after"};
+      problem.lifetimes["part"] = life;
+      problem.prescribed = {{"left", Dof::u1, kZeroOfStages},
+                            {"right", Dof::u1, kZeroOfStages},
+                            {"bottom", Dof::u2, kZeroOfStages}};
+      problem.body_loads = {gravity(kWeightOfStages)};
+      problem.boundary_loads = {{.on = "slab", .pressure = TimeTable::constant(100e3)}};
+      problem.boundary_loads.front().life.begin = load_begins;
+      EXPECT_EQ(faults(problem), std::vector<std::string>{});
+      Solver<2> solver(std::move(problem), tight());
+      const auto expected = [&](int stage) {
+        return kWeightOfStages * (life.holds(stage) ? 72.0 : 70.0) + (stage >= load_begins ? kLoad : 0.0);
+      };
+      // To round-off: the residual is at most 1e-13 of the forces.
+      ASSERT_TRUE(solver.equilibrate().converged);
+      EXPECT_NEAR(solver.reaction("bottom")(1) / expected(0), 1.0, 1e-10);
+      solver.begin_stage(1);
+      ASSERT_TRUE(solver.advance(1.0, 1.0).converged);
+      EXPECT_NEAR(solver.reaction("bottom")(1) / expected(1), 1.0, 1e-10);
+    }
+  }
+}
+
 TEST(stage, that_loads_a_curve_inside_of_the_body_is_a_fault) {
   Problem<2> problem = ground_with_pit({}, 1, elastic);
   std::vector<BoundarySide>& floor = problem.mesh.boundaries["floor"];

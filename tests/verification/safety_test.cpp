@@ -130,6 +130,30 @@ TEST_F(SafetyOfCase, of_a_block_is_that_of_the_interface_below_it) {
   EXPECT_GE(found.fails, exact * 0.995);
 }
 
+// A footing that is pushed down holds the ground below it, which then stands at any strength.
+TEST_F(SafetyOfCase, of_a_body_that_a_movement_holds_is_refused) {
+  const std::string footing =
+      "title: A footing pushed down\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [4 m, 2 m], elements: [4, 2], lines: {footing: [0, 2 m, 1 m, 2 m]}}}\n"
+      "materials: {soil: {model: elastoplastic, E: 20 MPa, nu: 0.3, friction_angle: 25 deg, dilatancy_angle: 0 deg, "
+      "cohesion: 10 kPa}}\n"
+      "regions: {all: soil}\n"
+      "boundary:\n"
+      "  - {on: [left, right], fix: [u1]}\n"
+      "  - {on: bottom, fix: [u1, u2]}\n"
+      "  - {on: footing, move: {u2: -2 mm}}\n"
+      "steps: {count: 1, tolerance: 1e-4}\n";
+  try {
+    (void)of(footing);
+    FAIL() << "a footing that is held has a factor of safety";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.faults().size(), 1U);
+    EXPECT_EQ(error.faults().front().message.substr(0, 60),
+              "boundary: 'footing' is moved, and would hold the body while ");
+  }
+}
+
 TEST_F(SafetyOfCase, of_grains_is_refused_by_name) {
   // Without strength, and without anything that could fail.
   std::string text = InfiniteSlope{20, 30, 0, 1e3}.text();

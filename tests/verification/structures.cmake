@@ -4,5 +4,6 @@ polargrain_tests(verification polargrain_fem
   verification/beam_test.cpp)
 polargrain_tests(verification polargrain_coupler
   verification/retaining_wall_test.cpp
-  verification/structure_stages_test.cpp)
+  verification/structure_stages_test.cpp
+  verification/walls_that_meet_test.cpp)
 polargrain_test(rough_wall_test long verification/rough_wall_test.cpp LIBS polargrain_coupler)
