@@ -46,8 +46,8 @@ int check(const CheckOptions& options) {
   const coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   const coupler::Entry document =
       coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
-  check_output("--picture", options.picture,
-               files_read_with(coupler::DocumentKind::problem, options.case_file, options.settings));
+  check_page("--picture", options.picture,
+             files_read_with(coupler::DocumentKind::problem, options.case_file, options.settings));
   // Each script and packing in an engine, before anything is said to be well.
   const PackingsAtRest packings = packings_at_rest(the_case, options.scripts.trusted);
   const Scene scene(the_case, document, packings);

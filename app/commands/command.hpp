@@ -38,6 +38,10 @@ std::vector<std::filesystem::path> files_read_with(coupler::DocumentKind kind,
 void check_output(const std::string& option, const std::filesystem::path& output,
                   const std::vector<std::filesystem::path>& inputs);
 
+/// The same of a page: it takes the place of an older page alone.
+void check_page(const std::string& option, const std::filesystem::path& output,
+                const std::vector<std::filesystem::path>& inputs);
+
 /// Refuses the places of files of a run (is_of_a_run). @param option as above @throws InputError
 void check_beside_run(const std::string& option, const std::filesystem::path& output,
                       const std::filesystem::path& directory);

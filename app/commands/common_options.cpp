@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/commands/command.hpp"
+#include "app/page/page.hpp"
 #include "app/run/result_directory.hpp"
 #include "common/error.hpp"
 #include "common/plain_text.hpp"
@@ -43,6 +44,12 @@ bool is_written_by_hand(const std::filesystem::path& file) {
   return (ending == ".yaml" || ending == ".yml" || ending == ".in") && std::filesystem::exists(file, error);
 }
 
+void refuse_output(const std::string& option, const std::filesystem::path& output,
+                   const std::string& reason) {
+  if (!reason.empty())
+    throw InputError({"", 0, fmt::format("{} {}: {}", option, plain_text(output.string()), reason)});
+}
+
 }  // namespace
 
 void check_output(const std::string& option, const std::filesystem::path& output,
@@ -52,8 +59,13 @@ void check_output(const std::string& option, const std::filesystem::path& output
   if (reason.empty() && is_written_by_hand(output))
     reason = "there is such a file, of a kind that is written by hand; name another file";
   if (reason.empty()) reason = why_no_output(output);
-  if (!reason.empty())
-    throw InputError({"", 0, fmt::format("{} {}: {}", option, plain_text(output.string()), reason)});
+  refuse_output(option, output, reason);
+}
+
+void check_page(const std::string& option, const std::filesystem::path& output,
+                const std::vector<std::filesystem::path>& inputs) {
+  check_output(option, output, inputs);
+  refuse_output(option, output, why_no_page(output));
 }
 
 void check_beside_run(const std::string& option, const std::filesystem::path& output,

@@ -229,8 +229,9 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
   std::vector<std::filesystem::path> inputs = coupler::files_named_in(document, directory);
   inputs.emplace_back(document.file);
-  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv", ".html"})
+  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv"})
     check_output("-o", with_ending(options.output, ending), inputs);
+  check_page("-o", with_ending(options.output, ".html"), inputs);
   const std::vector<ElementSpecification> specifications = read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);

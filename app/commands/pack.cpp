@@ -11,6 +11,7 @@
 
 #include "app/commands/command.hpp"
 #include "app/commands/in_child.hpp"
+#include "app/pack/drawn_sizes.hpp"
 #include "app/pack/read_specification.hpp"
 #include "app/remarks/packing_at_rest.hpp"
 #include "common/error.hpp"
@@ -181,6 +182,8 @@ int pack(const PackOptions& options, const PackingTools& tools) {
   if (options.quiet) return 0;
   const PreparedPacking made = read_packing_file(options.output);
   report(made, stepping, seconds, options.output);
+  const std::string sizes = settles ? "" : remark_on_drawn_sizes(specification, made.packing);
+  if (!sizes.empty()) tell(stderr, "warning: {}: {}\n", options.output.string(), sizes);
   if (options.moduli)
     tell(stdout, "  {}\n",
          options.moduli({options.output.stem().string(), specification.script_file, specification.script,

@@ -28,12 +28,14 @@ struct ReportOptions {
 
 constexpr int kRefreshSeconds = 5;
 
-/// @throws InputError where the page would stand in the place of a result or of the case
+/// @throws InputError where the page would stand in the place of a result, of the case, or of a file that is no page
 void check_page_file(const std::filesystem::path& file, const RunResult& result) {
   check_beside_run("-o", file, result.directory);
   const nlohmann::ordered_json::json_pointer place("/case");
-  if (!result.summary.contains(place) || !result.summary.at(place).is_string()) return;
-  check_output("-o", file, {result.summary.at(place).get<std::string>()});
+  std::vector<std::filesystem::path> inputs;
+  if (result.summary.contains(place) && result.summary.at(place).is_string())
+    inputs.emplace_back(result.summary.at(place).get<std::string>());
+  check_page("-o", file, inputs);
 }
 
 /// @returns whether one of the runs is still at work

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 
 #include "app/page/assets.hpp"
 #include "common/plain_text.hpp"
@@ -16,6 +18,9 @@ namespace polargrain::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Of each page: it tells them from files of others.
+constexpr std::string_view kHeadOfPage = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>\n";
 
 Json axis(const ChartAxis& of) {
   return {{"title", of.title}, {"unit", of.unit}, {"logarithmic", of.logarithmic}, {"percent", of.percent}};
@@ -132,14 +137,24 @@ std::string mesh_picture(const MeshPicture& picture) {
 
 std::string page(const std::string& title, const std::string& body, int refresh_seconds) {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>\n"
-      "<meta name='viewport' content='width=device-width, initial-scale=1'>\n{5}<title>{0}</title>\n"
+      "{7}<meta name='viewport' content='width=device-width, initial-scale=1'>\n{5}<title>{0}</title>\n"
       "<style>\n{1}</style></head><body>\n<h1>{0}</h1>\n{2}"
       "<noscript><p>The charts are drawn by a script, which this browser does not run.</p></noscript>\n"
       "<script>{3}</script>\n<script>\n{4}</script>\n<script>\n{6}</script>\n</body></html>\n",
       escaped(title), style_sheet(), body, chart_library(), chart_script(),
       refresh_seconds > 0 ? fmt::format("<meta http-equiv='refresh' content='{}'>\n", refresh_seconds) : "",
-      mesh_script());
+      mesh_script(), kHeadOfPage);
+}
+
+std::string why_no_page(const std::filesystem::path& file) {
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(file, error);  // a device takes what comes
+  if (!is_file || std::filesystem::file_size(file, error) == 0) return {};
+  std::string beginning(kHeadOfPage.size(), ' ');
+  std::ifstream(file, std::ios::binary)
+      .read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  if (beginning == kHeadOfPage) return {};
+  return "this file is there and is no page of polargrain; name another file to write, or remove this one";
 }
 
 }  // namespace polargrain::app

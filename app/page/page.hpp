@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,5 +80,9 @@ std::string mesh_picture(const MeshPicture& picture);
 /// An HTML file that needs no other. @param body HTML between the headline and the end
 /// @param refresh_seconds the browser loads it anew so often; 0: never
 std::string page(const std::string& title, const std::string& body, int refresh_seconds = 0);
+
+/// Why no page may be written into a file, in words that follow its name: it holds something else than a page of this program.
+/// Empty where a page may stand, also where nothing is yet.
+std::string why_no_page(const std::filesystem::path& file);
 
 }  // namespace polargrain::app

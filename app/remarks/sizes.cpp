@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/remarks/base_motions.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/lengths.hpp"
 
@@ -42,6 +43,18 @@ std::string of_region(const Scene& scene, const SceneRegion& region) {
     text += fmt::format("; a step strains the body by {:.2g}, {:.2g} elastic strains of the packing",
                         scene.strain_of_step(), scene.strain_of_step() / region.packing->elastic_strain());
   return text + "\n";
+}
+
+std::string of_motions(const Scene& scene) {
+  std::string text;
+  for_each_base_motion(scene, [&](const coupler::Entry::Member& member, const CsvTable& motion) {
+    if (motion.rows() == 0) return;
+    const double largest = largest_acceleration(motion);
+    text +=
+        fmt::format("motion of '{}' along {}: {:.4g} s, at most {:.3g} m/s2 ({:.3g} g)\n", member.value.text,
+                    member.key, motion.number(motion.rows() - 1, 0), largest, largest / kGravity);
+  });
+  return text;
 }
 
 /// Steps in real time of 0.25 h / c, and DEM steps of 0.36 d / c: measured on elements with middle nodes and on discs.
@@ -105,7 +118,7 @@ std::string sizes_text(const Scene& scene) {
                   sides, metres(scene.body().mean_element), metres(scene.largest_movement()),
                   100.0 * scene.largest_movement() / scene.body().smaller_side());
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
-  if (scene.the_case().real_time) return text + of_real_time(scene);
+  if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);
   if (expected.evaluations > 0.0)
     text += fmt::format("to be expected: some {:.2g} evaluations of cells at most, {} of one core\n",

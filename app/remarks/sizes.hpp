@@ -16,7 +16,8 @@ struct Expectation {
 Expectation expectation_of(const Scene& scene);
 
 /// The sizes that decide the worth of a result, a line each: body, elements over lc, lc over the grains, the largest movement
-/// over the body, strain of a step over the elastic strain of the packing, grains of a cell, cells and time to be expected.
+/// over the body, strain of a step over the elastic strain of the packing, grains of a cell, motions of a base, cells and time to
+/// be expected.
 std::string sizes_text(const Scene& scene);
 
 }  // namespace polargrain::app

@@ -215,7 +215,7 @@ TEST_F(Doors, OutputTakesNothingsPlace) {
             std::string::npos);
   // Through links, also where nothing is yet.
   fs::create_directory(at("far"));
-  write(at("far/page.html"), "before");
+  write(at("far/page.html"), "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>\nbefore");
   fs::create_symlink("far/page.html", at("page"));
   fs::create_symlink("far/new.html", at("new"));
   fs::create_symlink("page", at("second"));

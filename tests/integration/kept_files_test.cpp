@@ -96,6 +96,25 @@ TEST_F(KeptFiles, APageIsNotWrittenOverAResult) {
   EXPECT_EQ(polargrain("report out").status, 0);
 }
 
+TEST_F(KeptFiles, APageTakesThePlaceOfPagesAlone) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  write(at("notes.html"), "<!DOCTYPE html>\n<html><body>my notes</body></html>\n");
+  write(at("x"), "1");
+  const std::string refusal = ": this file is there and is no page of polargrain; name another file to write";
+  for (const std::string name : {"path.csv", "notes.html", "x"}) {
+    expect_refused("report out -o " + name, "-o " + name + refusal);
+    expect_refused("check case.yaml --picture " + name, "--picture " + name + refusal);
+  }
+  expect_refused("element --test biaxial --pressure 100kPa grains.csv cell.in -o notes",
+                 "-o notes.html" + refusal);
+  write(at("empty"), "");
+  for (const std::string name : {"new.html", "empty"})
+    for (int times = 0; times < 2; ++times) {
+      EXPECT_EQ(polargrain("report out -o " + name).status, 0) << name;
+      EXPECT_EQ(polargrain("check case.yaml --picture " + name).status, 0) << name;
+    }
+}
+
 TEST_F(KeptFiles, TestsAreNotWrittenOverTheirPackings) {
   expect_refused("element --test biaxial --pressure 100kPa grains.csv cell.in -o grains",
                  "-o grains.csv: the command reads this file");

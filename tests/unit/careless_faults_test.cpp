@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"DirectionByLetter", kGround, "fix: [u1, u2]", "fix: [u1, uy]", "did you mean 'u2'?"},
         Fault{"MovementByLetter", kGrains, "move: {u2:", "move: {uy:", "did you mean 'u2'?"},
         Fault{"DensityInGrams", kPacking, "density: 2650", "density: 2.65", "write 2650 if it was in g/cm3"},
+        Fault{"DensityInGramsPerCubicMetre", kPacking, "density: 2650", "density: 2650000",
+              "is heavier than any grain (quartz 2650); write 2650 if it was in g/m3"},
         Fault{"SievesWithoutUnit", kPacking, "[6 mm, 8 mm, 10 mm]", "[6, 8, 10]",
               "'6' without a unit is 6 m; write '6 mm'"},
         Fault{"PressureWithoutUnit", kPacking, "100 kPa", "100",

@@ -107,22 +107,114 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Stages, CarelessFeatures,
-    ::testing::Values(Careless{"BankWithoutWeight", kBank, "body: [{unit_weight: 18 kN/m3}]",
-                               "body: [{unit_weight: 18 kN/m3, region: rest}]",
-                               "region 'bank' comes without a weight, and other ground has 18 kN/m3"},
-                      Careless{"PressureOfAStageWithoutUnit", kBank, "pressure: 10 kPa}", "pressure: 10}",
-                               "'10' has no unit and is 10 Pa"},
-                      Careless{"ForcesOfAStageOnNodes", kBank, "pressure: 10 kPa}",
-                               "node_force: {u2: -1 kN/m}}", "nodes of 'top' takes a force of 1 kN/m",
-                               Rank::doubtful},
-                      Careless{"PressureOfAStageOnAHeldSide", kBank, "{on: top, pressure: 10 kPa}",
-                               "{on: right, pressure: 10 kPa}", "the pressure on 'right' has no effect"},
-                      Careless{"PressureOfAStageTwice", kBank, "[{on: top, pressure: 10 kPa}]",
-                               "[{on: top, pressure: 10 kPa}, {on: top, pressure: 10 kPa}]",
-                               "carry the same pressure, of up to 10 kPa, twice", Rank::doubtful},
-                      Careless{"TableThatIsOver", kBank, "pressure: 10 kPa",
-                               "pressure: [[0, 0], [1, 10 kPa]]",
-                               "the table ends at time 1, and stage 'traffic' begins at time 2"}),
+    ::testing::Values(
+        Careless{"BankWithoutWeight", kBank, "body: [{unit_weight: 18 kN/m3}]",
+                 "body: [{unit_weight: 18 kN/m3, region: rest}]",
+                 "region 'bank' comes without a weight, and other ground has 18 kN/m3"},
+        Careless{"PressureOfAStageWithoutUnit", kBank, "pressure: 10 kPa}", "pressure: 10}",
+                 "'10' has no unit and is 10 Pa"},
+        Careless{"ForcesOfAStageOnNodes", kBank, "pressure: 10 kPa}", "node_force: {u2: -1 kN/m}}",
+                 "nodes of 'top' takes a force of 1 kN/m", Rank::doubtful},
+        Careless{"PressureOfAStageOnAHeldSide", kBank, "{on: top, pressure: 10 kPa}",
+                 "{on: right, pressure: 10 kPa}", "the pressure on 'right' has no effect"},
+        Careless{"PressureOfAStageTwice", kBank, "[{on: top, pressure: 10 kPa}]",
+                 "[{on: top, pressure: 10 kPa}, {on: top, pressure: 10 kPa}]",
+                 "carry the same pressure, of up to 10 kPa, twice", Rank::doubtful},
+        Careless{"WeightOfAPartBesideThatOfAll", kBank, "body: [{unit_weight: 18 kN/m3}]",
+                 "body: [{unit_weight: 18 kN/m3}, {unit_weight: 20 kN/m3, region: bank}]",
+                 "region 'bank' has 18 and 20 kN/m3, of two items: 38 kN/m3 together", Rank::doubtful},
+        // K0 of 0.5: (1 + 0.5) / 2 of 18 kN/m3 over half of 2 m.
+        Careless{"BankWithTheStressOfItsMaterial", kBank, "E: 40 MPa, nu: 0.3}\nregions: {bank: soil",
+                 "E: 40 MPa, nu: 0.3}\n  fill: {model: elastic, E: 40 MPa, nu: 0.3, confining: 100 "
+                 "kPa}\nregions: {bank: fill",
+                 "region 'bank', which a stage places, comes with the 100 kPa of its 'confining'; 18 "
+                 "kN/m3 over its 2 m make 13.5 kPa in its middle"},
+        Careless{"WeightOfAPartThatComesBesideThatOfAll", kBank, "place: bank, count: 2}",
+                 "place: bank, count: 2, body: [{unit_weight: 20 kN/m3, region: bank}]}",
+                 "region 'bank' has 18 and 20 kN/m3, of two items: 38 kN/m3 together", Rank::doubtful},
+        Careless{"TableThatIsOver", kBank, "pressure: 10 kPa", "pressure: [[0, 0], [1, 10 kPa]]",
+                 "the table ends at time 1, and stage 'traffic' begins at time 2"}),
+    [](const auto& info) { return info.param.name; });
+
+const std::string kJoint = R"(title: Two blocks with a joint between them
+continuum: cauchy
+mesh: {rectangle: {size: [2 m, 2 m], elements: [4, 4], lines: {joint: [1 m, 0, 1 m, 2 m]}}}
+materials: {rock: {model: elastic, E: 20 MPa, nu: 0.2}}
+regions: {all: rock}
+interfaces: {slide: {on: joint, friction: 10 deg}}
+boundary:
+  - {on: left, fix: [u1, u2]}
+  - {on: right, move: {u1: -1 mm, u2: -20 mm}}
+steps: {count: 4, tolerance: 1e-8}
+monitors: {slip: {interface: slide, value: slip}}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    Joints, CarelessFeatures,
+    ::testing::Values(Careless{
+        "OneSideOfAJoint", kJoint, "{interface: slide, value: slip}", "{on: joint, displacement: u2}",
+        "the interface 'slide' parts 'joint', and these are the nodes of one side alone", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+const std::string kLayers = R"(title: Two layers at rest, then a load
+continuum: cauchy
+mesh: {rectangle: {size: [10 m, 12 m], elements: [5, 12], regions: {fill: [0, 10 m, 10 m, 12 m]}}}
+materials: {soil: {model: elastic, E: 40 MPa, nu: 0.3}}
+regions: {fill: soil, rest: soil}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0, 0 kPa], [1, 20 kPa]]}
+body: [{unit_weight: 17 kN/m3, region: fill}, {unit_weight: 20 kN/m3, region: rest}]
+initial_stress:
+  - {surface: 12 m, unit_weight: 17 kN/m3, K0: 0.5, region: fill}
+  - {surface: 10 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 34 kPa, region: rest}
+steps: {count: 2, tolerance: 1e-8}
+monitors: {support: {on: bottom, reaction: u2}}
+)";
+
+const std::string kCantilever = R"(title: A cantilever, one element thick
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 0.5 m], elements: [8, 1]}, element: Q4R}
+materials: {bar: {model: elastic, E: 30 GPa, nu: 0.2}}
+regions: {all: bar}
+boundary:
+  - {on: left, fix: [u1, u2]}
+  - {on: right, traction: {u2: [[0, 0 kPa], [1, -100 kPa]]}}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {force: {on: left, reaction: u2}}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    LayersAndBars, CarelessFeatures,
+    ::testing::Values(
+        Careless{
+            "ALayerWithoutItsSurcharge", kLayers, ", surcharge: 34 kPa", "",
+            "at the height 10 m region 'fill' ends with a vertical stress of 34 kPa and region 'rest' below it begins "
+            "with 0 kPa"},
+        Careless{"OneElementOfOnePointThick", kCantilever, "", "",
+                 "elements of one point over the thickness of 0.5 m: 1 (at least 4)", Rank::doubtful},
+        Careless{"OneBrickOfOnePointThick", replaced(kCantilever, "fix: [u1, u2]", "fix: [u1, u2, u3]"),
+                 "rectangle: {size: [4 m, 0.5 m], elements: [8, 1]}, element: Q4R",
+                 "box: {size: [4 m, 0.5 m, 0.5 m], elements: [8, 1, 1]}, element: H8R",
+                 "elements of one point over the thickness of 0.5 m: 1 (at least 4)", Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+/// The bar, whole or as a layer on a base, is right in elements of more points, and so is one of more elements.
+INSTANTIATE_TEST_SUITE_P(
+    LayersAndBars, OddFeatures,
+    ::testing::Values(
+        Careless{"LayersThatFit", kLayers, "", ""},
+        Careless{"ABarOfMorePoints", kCantilever, ", element: Q4R", ""},
+        Careless{"ABarOfFourElements", kCantilever, "[8, 1]", "[32, 4]"},
+        Careless{"ALayerOfOnePoint",
+                 replaced(kCantilever, "{on: left, reaction: u2}", "{on: bottom, reaction: u2}"),
+                 "left, fix: [u1, u2]", "bottom, fix: [u1, u2]"},
+        Careless{"AnItemOfALayerBeforeThatOfAll", kLayers,
+                 "  - {surface: 12 m, unit_weight: 17 kN/m3, K0: 0.5, region: fill}\n"
+                 "  - {surface: 10 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 34 kPa, region: rest}\n",
+                 "  - {surface: 12 m, unit_weight: 17 kN/m3, K0: 0.5, region: fill}\n"
+                 "  - {surface: 12 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: -6 kPa}\n"}),
     [](const auto& info) { return info.param.name; });
 
 const std::string kFooting = R"(title: A strip footing on clay
@@ -178,6 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, OddFeatures,
     ::testing::Values(
         Careless{"Wall", kWall, "", ""}, Careless{"Sheet", kSheet, "", ""}, Careless{"Bank", kBank, "", ""},
+        Careless{"Joint", kJoint, "", ""},
         Careless{"SmoothInterface", kWall,
                  "friction: 20 deg, normal_stiffness: 1 GPa/m, shear_stiffness: 100 MPa/m", "friction: 0"},
         Careless{"InterfaceAsRoughAsTheGround", kWall, "friction: 20 deg", "friction: 30 deg"},
@@ -188,6 +281,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "EA: 2100 MN/m, EI: 17.5 kNm2/m, GA: 800 MN/m"},
         Careless{"BankWithAStressOfItsOwn", kBank, "K0: 0.5, region: rest}]",
                  "K0: 0.5, region: rest}, {surface: 12 m, unit_weight: 18 kN/m3, K0: 0.5, region: bank}]"},
+        Careless{"BankWithTheStressOfItsWeight", kBank, "E: 40 MPa, nu: 0.3}\nregions: {bank: soil",
+                 "E: 40 MPa, nu: 0.3}\n  fill: {model: elastic, E: 40 MPa, nu: 0.3, confining: 16 "
+                 "kPa}\nregions: {bank: fill"},
         Careless{"BankOnGroundOfOneStress", kBank, "K0: 0.5, region: rest}]", "K0: 0.5}]"},
         Careless{"AFooting", kFooting, "", ""},
         Careless{"ALineAcrossAHole", kBank, kReadAlong,
@@ -235,6 +331,64 @@ INSTANTIATE_TEST_SUITE_P(SpreadSlips, OddFeatures,
                                                              "[10 mm, 0.4 m], elements: [1, 40]"),
                                                     "-16 mm", "-0.9 mm"}),
                          [](const auto& info) { return info.param.name; });
+
+/// A square that turns by a quarter about its lower left corner.
+const std::string kTurned = R"(title: A square that turns
+continuum: cauchy
+deformation: large
+mesh: {rectangle: {size: [1 m, 1 m], elements: [2, 2]}}
+materials: {soil: {model: elastic, E: 40 MPa, nu: 0.3}}
+regions: {all: soil}
+boundary:
+  - {on: bottom_left, fix: [u1, u2]}
+  - {on: bottom_right, move: {u1: -1 m, u2: 1 m}}
+  - {on: top_left, move: {u1: -1 m, u2: -1 m}}
+  - {on: top_right, fix: [u2], move: {u1: -2 m}}
+steps: {count: 10}
+monitors: {way: {on: top_right, displacement: u1}}
+)";
+
+TEST(Turns, AreNoMovementsOfTheWrongUnit) {
+  const auto told = [](const std::string& good, const std::string& bad) {
+    return app::text_of(remarks_of({"Turned", kTurned, good, bad}), true);
+  };
+  EXPECT_EQ(told("", "").find("moves by"), std::string::npos) << told("", "");
+  const std::string far = "'top_right' moves by 4000 mm, 400 % of the body (1000 mm)";
+  EXPECT_NE(told("u1: -2 m", "u1: -4 m").find(far), std::string::npos) << told("u1: -2 m", "u1: -4 m");
+  const std::string aside = "'bottom_left' moves by 2000 mm, 200 % of the body (1000 mm)";
+  const std::string from = kTurned.substr(kTurned.find("  - {on: bottom_left"),
+                                          kTurned.find("steps:") - kTurned.find("  - {on: bottom_left"));
+  const std::string carried =
+      "  - {on: [bottom_left, bottom_right, top_left, top_right], fix: [u2], move: {u1: 2 m}}\n";
+  EXPECT_NE(told(from, carried).find(aside), std::string::npos) << told(from, carried);
+}
+
+/// A slab under 2 kPa, which strain it by less than 1e-7.
+const std::string kSlab = R"(title: A slab under a crowd
+continuum: cauchy
+mesh: {rectangle: {size: [2 m, 0.2 m], elements: [20, 2]}}
+materials: {slab: {model: elastic, E: 30 GPa, nu: 0.2}}
+regions: {all: slab}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: [[0, 0], [1, 2 kPa]]}
+steps: {count: 5}
+monitors: {base: {on: bottom, reaction: u2}}
+)";
+
+TEST(StiffLaws, OfConcreteAndSteelAreRight) {
+  const auto is_told = [](const std::string& law) {
+    const app::Remarks remarks = remarks_of({"StiffLaw", kSlab, "model: elastic, E: 30 GPa, nu: 0.2", law});
+    return is_told_of_features(remarks, "GPa, and loads, weight and stress at time zero reach 2 kPa",
+                               Rank::wrong);
+  };
+  EXPECT_FALSE(is_told("model: elastic, E: 30 GPa, nu: 0.2"));
+  EXPECT_FALSE(is_told("model: elastic, E: 210 GPa, nu: 0.3"));
+  EXPECT_TRUE(is_told("model: elastic, E: 3000 GPa, nu: 0.3"));
+  EXPECT_TRUE(
+      is_told("model: elastoplastic, E: 30 GPa, nu: 0.2, friction_angle: 30 deg, dilatancy_angle: 0 deg, "
+              "cohesion: 1 kPa"));
+}
 
 TEST(StartFrom, AnotherContinuumOrALargerBodyIsTold) {
   const Scratch scratch("careless_start");

@@ -2,9 +2,12 @@
 // Runs in real time with one thing wrong each, and odd ones that are right.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "app/remarks/sizes.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_features.hpp"
 
 namespace polargrain::testing {
@@ -29,30 +32,52 @@ monitors:
 output: {every: 50, table: [top]}
 )";
 
-INSTANTIATE_TEST_SUITE_P(RealTime, CarelessFeatures,
-                         ::testing::Values(Careless{"DensityInTons", kColumn, "density: 2000 kg/m3",
-                                                    "density: 2.0", "a density of 2 kg/m3"}),
+/// The same at rest in its weight.
+const std::string kHeavyColumn =
+    replaced(kColumn, "  - {on: [left, right], fix: [u2]}\n  - {on: left, tie: right}\n",
+             "  - {on: left, tie: right}\n"
+             "body: [{unit_weight: 20 kN/m3}]\n"
+             "initial_stress: [{surface: 10 m, unit_weight: 20 kN/m3, K0: 0.43}]\n");
+
+INSTANTIATE_TEST_SUITE_P(
+    RealTime, CarelessFeatures,
+    ::testing::Values(
+        Careless{"DensityInTons", kColumn, "density: 2000 kg/m3", "density: 2.0", "a density of 2 kg/m3"},
+        Careless{"DensityOfWater", kHeavyColumn, "density: 2000 kg/m3", "density: 1000 kg/m3",
+                 "a density of 1000 kg/m3 weighs 9.81 kN/m3, and region 'all' has 20 kN/m3 below body",
+                 Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(RealTime, OddFeatures,
+                         ::testing::Values(Careless{"FreeVibration", kColumn, "", ""},
+                                           Careless{"VibrationInItsWeight", kHeavyColumn, "", ""},
+                                           Careless{"VibrationOfSubmergedGround",
+                                                    replaced(kHeavyColumn, "body: [{unit_weight: 20",
+                                                             "body: [{unit_weight: 10"),
+                                                    "10 m, unit_weight: 20", "10 m, unit_weight: 10"}),
                          [](const auto& info) { return info.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(RealTime, OddFeatures, ::testing::Values(Careless{"FreeVibration", kColumn, "", ""}),
-                         [](const auto& info) { return info.param.name; });
-
-/// On 2 s of the column on a base that moves after quake.csv.
-app::Remarks remarks_on_motion_of(const Scratch& scratch) {
+/// On 2 s of the column on a base that moves after a file.
+app::Remarks remarks_on_motion_of(const Scratch& scratch, const std::string& file = "quake.csv") {
   write(scratch.path() / "case.yaml",
         replaced(replaced(kColumn, "  - {on: bottom, fix: [u1, u2]}\n",
-                          "  - {on: bottom, fix: [u2], accelerate: {u1: quake.csv}}\n"),
+                          "  - {on: bottom, fix: [u2], accelerate: {u1: " + file + "}}\n"),
                  "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n", ""));
   return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
 }
 
-/// A motion of `rows` rows 0.01 s apart, of this amplitude in m/s2. @returns the remarks on 2 s of it
-app::Remarks remarks_on_motion(int rows, double amplitude) {
-  const Scratch scratch("careless_motion");
+/// A motion of `rows` rows 0.01 s apart, of this amplitude in m/s2.
+std::string swings(int rows, double amplitude) {
   std::string table = "time,acceleration\n";
   for (int row = 0; row < rows; ++row)
     table += fmt::format("{},{}\n", 0.01 * row, amplitude * std::sin(0.12 * row));
-  write(scratch.path() / "quake.csv", table);
+  return table;
+}
+
+/// @returns the remarks on 2 s of it
+app::Remarks remarks_on_motion(int rows, double amplitude) {
+  const Scratch scratch("careless_motion");
+  write(scratch.path() / "quake.csv", swings(rows, amplitude));
   return remarks_on_motion_of(scratch);
 }
 
@@ -96,16 +121,115 @@ TEST(RealTime, DampsAgainstOneBase) {
   write(scratch.path() / "case.yaml",
         replaced(shaken, "{on: top, fix: [u1]}", "{on: top, accelerate: {u1: quake.csv}}"));
   EXPECT_NO_THROW((void)coupler::read_case(scratch.path() / "case.yaml"));
+  // What is pushed against a support is damped against the support.
+  write(scratch.path() / "case.yaml",
+        replaced(shaken, "accelerate: {u1: quake.csv}", "move: {u1: [[0, 0], [2, 10 mm]]}"));
+  EXPECT_NO_THROW((void)coupler::read_case(scratch.path() / "case.yaml"));
 }
 
+app::Remarks remarks_on_text(const std::string& text) {
+  const Scratch scratch("careless_text");
+  write(scratch.path() / "quake.csv", swings(201, 1.0));
+  write(scratch.path() / "case.yaml", text);
+  return app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+}
+
+bool says(const app::Remarks& remarks, const std::string& part) {
+  return std::ranges::any_of(
+      remarks, [&](const app::Remark& remark) { return remark.at.message.find(part) != std::string::npos; });
+}
+
+const std::string kQuietBase =
+    replaced(replaced(kColumn, "{on: bottom, fix: [u1, u2]}", "{on: bottom, fix: [u1, u2], quiet: true}"),
+             "monitors:\n", "monitors:\n  base: {on: bottom, displacement: u1}\n");
+
 TEST(QuietBoundary, MovesThoughItIsFixedAtTheStart) {
-  const Scratch scratch("careless_quiet");
-  write(scratch.path() / "case.yaml",
-        replaced(replaced(kColumn, "{on: bottom, fix: [u1, u2]}", "{on: bottom, fix: [u1, u2], quiet: true}"),
-                 "monitors:\n", "monitors:\n  base: {on: bottom, displacement: u1}\n"));
-  const app::Remarks remarks =
-      app::remarks_on(coupler::read_case(scratch.path() / "case.yaml"), std::vector<std::string>{}, {});
+  const app::Remarks remarks = remarks_on_text(
+      replaced(kQuietBase, "[[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]", "[[0, 0], [0.1, 10 kPa], [0.2, 0]]"));
   EXPECT_TRUE(remarks.empty()) << app::text_of(remarks, true);
+}
+
+/// Forces that held the start stay: a load that goes leaves theirs, one that comes and stays leaves itself. 10 kPa on 1 m. Shear
+/// waves of 87.7 m/s go through the column, 10 m high, 18 times in 2 s, and not even once in 0.1 s. A vibration drifts nowhere.
+TEST(QuietBoundary, AloneHoldsNoLoadAlongItsAxis) {
+  const std::string message =
+      "loads along 1 stay 10 kN/m away from those of the start, and quiet boundaries alone hold the body along 1";
+  const std::string lasting =
+      replaced(kQuietBase, "[[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]", "[[0, 0], [0.1, 10 kPa]]");
+  std::string vibration = "[[0, 0]";  // 10 Hz, up to a peak
+  for (int k = 1; k <= 41; ++k)
+    vibration += fmt::format(", [{}, {} kPa]", 0.05 * k - 0.025, k % 2 == 0 ? -10 : 10);
+  vibration += "]";
+  for (const std::string& text : {kQuietBase, lasting}) {
+    const app::Remarks remarks = remarks_on_text(text);
+    EXPECT_TRUE(is_told_of_features(remarks, message, Rank::doubtful)) << app::text_of(remarks, true);
+  }
+  for (const std::string& text :
+       {replaced(lasting, "[[0, 0], [0.1, 10 kPa]]", vibration),
+        replaced(lasting, "duration: 2 s, count: 200", "duration: 0.1 s, count: 10"),
+        replaced(lasting, "fix: [u1, u2], quiet: true", "fix: [u1, u2]")}) {
+    const app::Remarks remarks = remarks_on_text(text);
+    EXPECT_FALSE(says(remarks, "drifts on")) << app::text_of(remarks, true);
+  }
+}
+
+/// A quiet side beside a shaken base holds the ground back. Beside a wall that is pushed, a quiet bottom is right.
+TEST(QuietBoundary, BesideAShakenBaseIsTold) {
+  const std::string sides = "  - {on: [left, right], fix: [u2]}\n  - {on: left, tie: right}\n";
+  const std::string load = "  - {on: top, traction: {u1: [[0, 10 kPa], [0.1, 10 kPa], [0.11, 0]]}}\n";
+  const std::string bottom = "{on: bottom, fix: [u1, u2]}";
+  for (const char* const motion :
+       {"accelerate: {u1: quake.csv}", "move: {u1: [[0, 0], [1, 5 mm], [2, 0]]}"}) {
+    const std::string shaken =
+        replaced(replaced(kColumn, load, ""), bottom, fmt::format("{{on: bottom, fix: [u2], {}}}", motion));
+    const app::Remarks tied = remarks_on_text(shaken);
+    EXPECT_FALSE(says(tied, "quiet")) << app::text_of(tied, true);
+    const app::Remarks remarks =
+        remarks_on_text(replaced(shaken, sides, "  - {on: [left, right], fix: [u2], quiet: true}\n"));
+    EXPECT_TRUE(is_told_of_features(remarks, "'left' is quiet beside 'bottom', which moves", Rank::wrong))
+        << app::text_of(remarks, true);
+    const app::Remarks pushed = remarks_on_text(
+        replaced(replaced(replaced(kColumn, load, ""), bottom, "{on: bottom, fix: [u2], quiet: true}"), sides,
+                 fmt::format("  - {{on: left, {}}}\n", motion)));
+    EXPECT_FALSE(says(pushed, "is quiet beside")) << app::text_of(pushed, true);
+  }
+}
+
+/// It is let go once the start is balanced: what moves it then would be dropped. A place that it is held at is none.
+TEST(QuietBoundary, ThatIsMovedIsAFault) {
+  const Scratch scratch("careless_quiet_moved");
+  write(scratch.path() / "quake.csv", swings(201, 1.0));
+  const std::string bottom = "{on: bottom, fix: [u1, u2]}";
+  for (const char* const motion : {"accelerate: {u1: quake.csv}", "move: {u1: 5 mm}"}) {
+    write(scratch.path() / "case.yaml",
+          replaced(kColumn, bottom, fmt::format("{{on: bottom, fix: [u2], {}, quiet: true}}", motion)));
+    try {
+      (void)coupler::read_case(scratch.path() / "case.yaml");
+      ADD_FAILURE() << motion;
+    } catch (const InputError& error) {
+      ASSERT_EQ(error.faults().size(), 1U);
+      EXPECT_EQ(error.faults().front().line, 8);
+      EXPECT_EQ(
+          error.faults().front().message,
+          "boundary item 1: 'bottom' is quiet, which lets it go once the start is balanced: its movement "
+          "would be dropped; move another boundary, or leave quiet out");
+    }
+  }
+  write(
+      scratch.path() / "case.yaml",
+      replaced(kColumn, bottom, "{on: bottom, fix: [u2], move: {u1: [[0, 5 mm], [1, 5 mm]]}, quiet: true}"));
+  EXPECT_NO_THROW((void)coupler::read_case(scratch.path() / "case.yaml"));
+}
+
+TEST(Motions, OfSingleValuesThatEndBeforeTheRunAreTold) {
+  const std::string bottom = "{on: bottom, fix: [u1, u2]}";
+  const std::string message = "the movement of '-10 mm' is over at 1 s";
+  const app::Remarks single =
+      remarks_on_text(replaced(kColumn, bottom, "{on: bottom, fix: [u2], move: {u1: -10 mm}}"));
+  EXPECT_TRUE(is_told_of_features(single, message, Rank::doubtful)) << app::text_of(single, true);
+  const app::Remarks table = remarks_on_text(
+      replaced(kColumn, bottom, "{on: bottom, fix: [u2], move: {u1: [[0, 0], [2, -10 mm]]}}"));
+  EXPECT_FALSE(says(table, "is over at 1 s")) << app::text_of(table, true);
 }
 
 TEST(Motions, ThatGoOnBehindTheRunAreTold) {
@@ -146,6 +270,43 @@ TEST(Motions, WithAnOffsetAreTold) {
   EXPECT_TRUE(
       is_told_of_features(remarks, "ends with 1e+03 mm/s and its swings reach 318 mm/s", Rank::doubtful))
       << app::text_of(remarks, true);
+}
+
+/// A sine of 0.3 that was recorded in g.
+TEST(Motions, InPartsOfGravityAreToldWhereTheFileSaysSo) {
+  const std::string units = "# Acceleration time series in units of G\n";
+  struct Record {
+    std::string file, comment;
+    double amplitude;
+    std::string message;
+  };
+  for (const Record& record :
+       {Record{"quake_g.csv", "", 0.3,
+               "reaches 0.3 m/s2, 0.031 times gravity, and the name of the file says 'g'"},
+        Record{"quake.csv", units, 0.3, "and a comment of the file says 'g'"},
+        Record{"quake.csv", "", 0.3, ""}, Record{"quake_g.csv", "", 3.0, ""},
+        Record{"quake_0.1g.csv", "# peak 0.1 g, gusts\n", 0.98, ""}}) {
+    const Scratch scratch("careless_gravity");
+    write(scratch.path() / record.file, record.comment + swings(201, record.amplitude));
+    const app::Remarks remarks = remarks_on_motion_of(scratch, record.file);
+    EXPECT_EQ(remarks.size(), record.message.empty() ? 0U : 1U) << app::text_of(remarks, true);
+    EXPECT_TRUE(record.message.empty() || is_told_of_features(remarks, record.message, Rank::wrong))
+        << app::text_of(remarks, true);
+  }
+}
+
+TEST(Motions, AreAmongTheSizes) {
+  const Scratch scratch("careless_sizes");
+  const std::filesystem::path file = scratch.path() / "case.yaml";
+  write(scratch.path() / "quake.csv", "time,acceleration\n0,0\n0.5,0.4905\n1.5,-0.981\n2,0\n");
+  static_cast<void>(remarks_on_motion_of(scratch));
+  const coupler::Case the_case = coupler::read_case(file);
+  const coupler::Entry document = coupler::load_document_of(coupler::DocumentKind::problem, file, {});
+  const app::PackingsAtRest no_packings;
+  const std::string sizes = app::sizes_text(app::Scene(the_case, document, no_packings));
+  EXPECT_NE(sizes.find("motion of 'quake.csv' along u1: 2 s, at most 0.981 m/s2 (0.1 g)\n"),
+            std::string::npos)
+      << sizes;
 }
 
 TEST(Motions, AsLongAsTheRunAreRight) {

@@ -60,6 +60,11 @@ INSTANTIATE_TEST_SUITE_P(
             "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, pressure: 40 kPa}]}, "
             "{name: b, until: 2, count: 4, boundary: [{on: top, pressure: 20 kPa}]}]}"},
         Careless{
+            "ALoadOnASmallSurcharge", replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "10 kPa"),
+            "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4}, {name: b, until: 2, count: 4, boundary: "
+            "[{on: top, pressure: 50 kPa}]}]}"},
+        Careless{
             "ALoadThatTakesAnothersPlace", kGround, "steps: {count: 10, tolerance: 1e-6}",
             "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, name: q, pressure: 20 "
             "kPa}]}, {name: b, until: 2, count: 4, end: q, boundary: [{on: top, pressure: 50 kPa}]}]}"},

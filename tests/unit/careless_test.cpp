@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Scenes with one thing wrong each, all of which run and give a plausible figure: every one must be remarked on, and the
 // remark must name it.
+#include <fmt/format.h>
+
+#include <numbers>
 #include <sstream>
 
 #include "tests/support/careless_scenes.hpp"
@@ -177,6 +180,13 @@ INSTANTIATE_TEST_SUITE_P(
             "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4, boundary: [{on: top, pressure: 20 kPa}]}, "
             "{name: b, until: 2, count: 4, boundary: [{on: top, pressure: 50 kPa}]}]}",
             "stage 'b' adds 50 kPa on 'top' to the 20 kPa of stage 'a': 70 kPa together", Rank::doubtful},
+        Careless{
+            "AWholeInPlaceOfAnIncreaseOfTheCase", replaced(kGround, "[[0, 10 kPa], [1, 60 kPa]]", "10 kPa"),
+            "steps: {count: 10, tolerance: 1e-6}",
+            "steps: {tolerance: 1e-6, stages: [{name: a, until: 1, count: 4}, {name: b, until: 2, count: 4, boundary: [{on: top, "
+            "pressure: 16 kPa}]}]}",
+            "stage 'b' adds 16 kPa on 'top' to the 10 kPa of the case's own list: 26 kPa together",
+            Rank::doubtful},
         Careless{"RatioAtRestInPerCent", kGround, "K0: 0.5", "K0: 50",
                  "the ratios that material 'soil' can carry"},
         Careless{"RatioAtRestOfNothing", kGround, "K0: 0.5", "K0: 0.05",
@@ -316,6 +326,42 @@ std::string few_grains(std::size_t grains, const std::string& box) {
   std::string text = replaced(line, "xx=0.1980869253 xy=0 yx=0 yy=0.1966123044", box) + '\n';
   for (std::size_t k = 0; k <= grains && std::getline(lines, line); ++k) text += line + '\n';
   return text;
+}
+
+/// Four rows of grains of 5 mm that touch, of this density. @param space spheres in four layers, else discs 0.1 m high
+std::string grains_of(double density, bool space) {
+  constexpr double kRadius = 5e-3;  // m
+  const double volume = std::numbers::pi * kRadius * kRadius * (space ? 4.0 / 3.0 * kRadius : 0.1);
+  std::string text =
+      space ? "# cell xx=0.04 xy=0 xz=0 yx=0 yy=0.04 yz=0 zx=0 zy=0 zz=0.04 p=1e5\nid,x,y,z,r,mass,Izz\n"
+            : "# cell xx=0.04 xy=0 yx=0 yy=0.04 z=0.1 p=1e5\nid,x,y,r,mass,Izz\n";
+  const auto place = [](int k) { return (2.0 * k + 1.0) * kRadius; };
+  for (int id = 0; id < (space ? 64 : 16); ++id)
+    text += fmt::format("{},{},{},{}{},{},1e-6\n", id, place(id % 4), place(id / 4 % 4),
+                        space ? fmt::format("{},", place(id / 16)) : "", kRadius, density * volume);
+  return text;
+}
+
+TEST(CarelessPacking, OfLightOrHeavyGrainsIsTold) {
+  for (const bool space : {false, true}) {
+    const auto text_on = [space](double density) {
+      const std::string source = POLARGRAIN_SOURCE_DIRECTORY;
+      const Scratch scratch("careless_density");
+      write(scratch.path() / "case.yaml", replaced(kGrains, "grains.h5", "grains.csv"));
+      write(scratch.path() / "cell.in", content(source + "/liggghts_inputs/cells/" +
+                                                (space ? "spheres_hooke_radii.in" : "hooke_radii.in")));
+      write(scratch.path() / "grains.csv", grains_of(density, space));
+      const coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+      return app::text_of(app::remarks_on(the_case, std::vector<std::string>{}, {}), true);
+    };
+    const auto told = [&](double density, const std::string& message) {
+      const std::string text = text_on(density);
+      return text.find(message) != std::string::npos ? "" : message + " is not in\n" + text;
+    };
+    EXPECT_EQ(told(2.65e6, "material 'sand': the grains weigh 2.65e+06 kg/m3"), "");
+    EXPECT_EQ(told(2.65e-3, "the grains weigh 0.0"), "");
+    EXPECT_EQ(text_on(2650.0).find("the grains weigh"), std::string::npos);
+  }
 }
 
 TEST(CarelessPacking, IsTold) {

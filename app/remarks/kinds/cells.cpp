@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/remarks/few_grains.hpp"
 #include "app/remarks/kinds.hpp"
@@ -19,6 +20,7 @@ constexpr double kNarrowBox = 3.0;  // largest grains
 constexpr double kSoft = 0.02;      // mean overlap over the smaller radius
 constexpr double kHard = 1e-8;
 constexpr double kLightGrain = 100.0;  // kg/m^3
+constexpr double kHeavyGrain = 25e3;   // kg/m^3, heavier than any element
 constexpr double kLargeGrain = 0.5;    // m, mean diameter
 constexpr double kSmallBody = 5.0;     // mean diameters
 constexpr double kSmallElement = 0.2;  // mean diameters
@@ -30,12 +32,14 @@ double width_of_box(const Packing& packing) {
   return packing.dimension == 3 ? std::min(plane, packing.thickness) : plane;
 }
 
-/// Of the grains, kg/m^3. In a plane packing they may be spheres in a box that is higher: then only their mass says so.
-double density_of(const Packing& packing) {
+/// The least and the largest density of the grains, kg/m^3. In a plane packing they may be discs as high as the box, or spheres: only
+/// their mass says so.
+std::pair<double, double> densities_of(const Packing& packing) {
   double spheres = 0.0;
   for (const Grain& grain : packing.grains)
     spheres += 4.0 / 3.0 * std::numbers::pi * grain.radius * grain.radius * grain.radius;
-  return packing.grain_mass() / std::min(packing.grain_volume(), spheres);
+  const double mass = packing.grain_mass();
+  return {mass / std::max(packing.grain_volume(), spheres), mass / std::min(packing.grain_volume(), spheres)};
 }
 
 double largest_diameter(const Packing& packing) {
@@ -131,11 +135,12 @@ void size_of_grains(const Scene& scene, Remarks& remarks) {
                "grain is larger than the elements whose stress its box gives",
                region.material, region.name, element, 1e3 * element * diameter, 1e3 * diameter)),
            "fewer elements, or smaller grains; check the units of the mesh and of the grains"});
-    const double density = density_of(packing);
-    if (density < kLightGrain)
+    const auto [least, largest] = densities_of(packing);
+    if (largest < kLightGrain || least > kHeavyGrain)
       remarks.push_back(
-          {Rank::doubtful, kLightGrain / density,
-           place.fault(fmt::format("material '{}': the grains weigh {:.3g} kg/m3", region.material, density)),
+          {Rank::doubtful, std::max(kLightGrain / largest, least / kHeavyGrain),
+           place.fault(fmt::format("material '{}': the grains weigh {:.3g} kg/m3", region.material,
+                                   largest < kLightGrain ? largest : least)),
            "give the density of the specification in kg/m3 (quartz 2650), and make the packing again"});
   }
 }

@@ -44,7 +44,7 @@ void look_at_drains(const Scene& scene, const fem::Problem<dim>& problem, const 
   std::vector<char> closed = laid_bare(problem, before, now);
   const auto all = std::ranges::count(closed, 1);
   for (const fem::PrescribedField<dim>& given : problem.prescribed_fields)
-    if (given.life.holds(stage))
+    if (given.field == fem::kPorePressure && given.life.holds(stage))
       for (const int node : problem.mesh.nodes_on(given.on)) closed[static_cast<std::size_t>(node)] = 0;
   for (const fem::OpenSide& side : water.options().open_sides)
     if (side.holds(stage))
@@ -52,8 +52,8 @@ void look_at_drains(const Scene& scene, const fem::Problem<dim>& problem, const 
   // Drained sides beside it share its ends.
   if (2 * std::ranges::count(closed, 1) <= all) return;
   for (const fem::PrescribedField<dim>& given : problem.prescribed_fields) {
-    if (!given.life.holds(stage - 1) || !has_ground(problem, given.on, before) ||
-        has_ground(problem, given.on, now))
+    if (given.field != fem::kPorePressure || !given.life.holds(stage - 1) ||
+        !has_ground(problem, given.on, before) || has_ground(problem, given.on, now))
       continue;
     remarks.push_back(
         {Rank::doubtful, 2.0,

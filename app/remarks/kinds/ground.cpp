@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
 
+#include "app/remarks/given_stress.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 #include "app/remarks/weight_at_start.hpp"
 #include "fem/water/pore_water.hpp"
 
@@ -163,11 +168,13 @@ void look_at_weights(const Scene& scene, const Entry& list, Remarks& remarks) {
   constexpr double kFarWeights = 0.3;
   if (scene.find({"water"}) != nullptr) return;  // then one is that below water, perhaps
   for (const SceneRegion& region : scene.regions()) {
-    const Entry* last = nullptr;  // the one that counts
-    for (const Entry& item : list.items) {
-      const Entry* const of_region = item.find("region");
-      if (of_region == nullptr || of_region->text == region.name) last = &item;
-    }
+    const Entry* last = nullptr;  // the one that counts: of the region before one of all
+    for (const bool is_own : {false, true})
+      for (const Entry& item : list.items) {
+        const Entry* const of_region = item.find("region");
+        if (is_own ? of_region != nullptr && of_region->text == region.name : of_region == nullptr)
+          last = &item;
+      }
     if (last == nullptr || region.comes_later || region.elements.empty()) continue;
     const double given = number(*last, "unit_weight", Dimension::unit_weight).value_or(0.0);
     const double weight = weight_at_start(scene, region.name);
@@ -189,12 +196,80 @@ void look_at_weights(const Scene& scene, const Entry& list, Remarks& remarks) {
   }
 }
 
+/// A border of two regions that lies nearly level, and the vertical stress given above and below it.
+struct Border {
+  std::string above, below;
+  double height = 0.0;                            ///< of the middle of its side, m
+  double stress_above = 0.0, stress_below = 0.0;  ///< Pa, compression positive
+  /// Difference over the larger one, or over 1 kPa: near the surface there is less than a step could feel.
+  [[nodiscard]] double off() const {
+    const double larger = std::max({std::abs(stress_above), std::abs(stress_below), 1e3});
+    return std::abs(stress_above - stress_below) / larger;
+  }
+};
+
+/// The border with the largest jump.
+template <int dim>
+Border worst_border(const Scene& scene, const fem::Problem<dim>& problem) {
+  constexpr double kLevel = 0.7;  // part of the normal that points up
+  Border worst;
+  std::map<std::vector<int>, int> beside;  // an element by the nodes of its side
+  for (std::size_t e = 0; e < problem.mesh.elements.size(); ++e)
+    for (std::size_t k = 0; k < problem.mesh.elements[e].type->sides.size(); ++k) {
+      const fem::BoundarySide here{static_cast<int>(e), static_cast<int>(k)};
+      std::vector<int> nodes = problem.mesh.side_nodes(here);
+      std::ranges::sort(nodes);
+      const auto [place, is_first] = beside.try_emplace(std::move(nodes), here.element);
+      if (is_first) continue;
+      const SceneRegion& one = scene.region_of(here.element);
+      const SceneRegion& other = scene.region_of(place->second);
+      if (one.name == other.name || one.comes_later || other.comes_later) continue;
+      const OutlineSide<dim> side = side_at(problem.mesh, here);
+      if (std::abs(side.normal(dim - 1)) < kLevel) continue;
+      const auto vertical = [&](const SceneRegion& region) {
+        const auto stress = given_stress<dim>(scene, region.name, side.centre);
+        return stress ? std::optional(-(*stress)(Cosserat<dim>::stress_place(dim - 1, dim - 1)))
+                      : std::nullopt;
+      };
+      const auto of_one = vertical(one);
+      const auto of_other = vertical(other);
+      if (!of_one || !of_other) continue;
+      const bool is_below = side.normal(dim - 1) > 0.0;  // `one` is
+      const Border border{is_below ? other.name : one.name, is_below ? one.name : other.name,
+                          side.centre(dim - 1), is_below ? *of_other : *of_one,
+                          is_below ? *of_one : *of_other};
+      if (border.off() > worst.off()) worst = border;
+    }
+  return worst;
+}
+
+/// The vertical stress is the same above and below a border: the upper layer weighs on the lower one.
+void look_at_borders(const Scene& scene, const Entry& list, Remarks& remarks) {
+  constexpr double kSlack = 0.1;
+  constexpr double kFar = 0.3;
+  const Border worst = scene.with_problem([&](const auto& problem) { return worst_border(scene, problem); });
+  if (worst.off() <= kSlack) return;
+  const auto of_below = std::ranges::find_if(list.items, [&](const Entry& item) {
+    const Entry* const region = item.find("region");
+    return region != nullptr && region->text == worst.below;
+  });
+  remarks.push_back(
+      {worst.off() > kFar ? Rank::wrong : Rank::doubtful, 1.0 + worst.off(),
+       (of_below == list.items.end() ? list : *of_below)
+           .fault(fmt::format(
+               "initial_stress: at the height {:.4g} m region '{}' ends with a vertical stress of {:.4g} kPa and region "
+               "'{}' below it begins with {:.4g} kPa: step 0 takes up the difference",
+               worst.height, worst.above, 1e-3 * worst.stress_above, worst.below, 1e-3 * worst.stress_below)),
+       "give the lower layer the weight above it: {region: LOWER, surface: ..., surcharge: WEIGHT ABOVE, ...}"});
+}
+
 }  // namespace
 
 void ground_stress(const Scene& scene, Remarks& remarks) {
   const Entry* const list = scene.find({"initial_stress"});
   if (list == nullptr) return;
   look_at_weights(scene, *list, remarks);
+  look_at_borders(scene, *list, remarks);
   for (const Entry& item : list->items) {
     look_at_ratio(scene, item, remarks);
     look_at_surface(scene, item, remarks);

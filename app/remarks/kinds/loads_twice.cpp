@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "app/remarks/kinds.hpp"
 
@@ -44,6 +45,48 @@ void look_at_pressures(const Scene& scene, const fem::Problem<dim>& problem, Rem
     }
 }
 
+/// Weights of two items, N/m^3, downwards positive, at the end of the step at which they weigh most together.
+template <int dim>
+std::pair<double, double> weights_together(const Scene& scene, const fem::BodyLoad<dim>& one,
+                                           const fem::BodyLoad<dim>& other,
+                                           const typename Cosserat<dim>::Place& place) {
+  std::vector<double> times{0.0};
+  for (const coupler::StepTarget& target : scene.the_case().plan)
+    times.push_back(scene.end_time() ? target.amount : 1.0);
+  std::pair<double, double> most;
+  for (const double time : times) {
+    const std::pair<double, double> now{-one.factor.at(time) * one.density(place)(dim - 1),
+                                        -other.factor.at(time) * other.density(place)(dim - 1)};
+    if (now.first + now.second > most.first + most.second) most = now;
+  }
+  return most;
+}
+
+/// Two weights of one place, each of which could be the whole one.
+template <int dim>
+void look_at_sum_of_weights(const Scene& scene, const fem::BodyLoad<dim>& one,
+                            const fem::BodyLoad<dim>& other, const typename Cosserat<dim>::Place& place,
+                            Remarks& remarks) {
+  constexpr double kHeaviest = 28e3;  // N/m^3: reinforced concrete has 25, rock 27
+  constexpr double kLikeAWhole = 3.0;
+  constexpr double kNearlyAlike = 1.25;
+  const auto [first, second] = weights_together(scene, one, other, place);
+  const double less = std::min(first, second);
+  const double more = std::max(first, second);
+  const bool has_own = one.region != other.region;
+  if (less <= 0.0 || more > kLikeAWhole * less ||
+      (first + second <= kHeaviest && !(has_own && more <= kNearlyAlike * less)))
+    return;
+  const std::string& region = one.region.empty() ? other.region : one.region;
+  remarks.push_back(
+      {Rank::doubtful, 3.0,
+       scene.place({"body"}).fault(
+           fmt::format("body: {} has {:.4g} and {:.4g} kN/m3, of two items: {:.4g} kN/m3 together",
+                       region.empty() ? std::string("all ground") : fmt::format("region '{}'", region),
+                       1e-3 * first, 1e-3 * second, 1e-3 * (first + second))),
+       "an item without a region is for all of the body, and items add up: give each region one item (region: NAME)"});
+}
+
 template <int dim>
 void look_at_weights(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   const auto& place = problem.mesh.nodes.front();
@@ -51,9 +94,12 @@ void look_at_weights(const Scene& scene, const fem::Problem<dim>& problem, Remar
     for (std::size_t b = a + 1; b < problem.body_loads.size(); ++b) {
       const auto& [one, other] = std::tie(problem.body_loads[a], problem.body_loads[b]);
       const bool is_one_place = one.region == other.region || one.region.empty() || other.region.empty();
-      if (!is_one_place || !one.life.overlaps(other.life) || one.density(place) != other.density(place) ||
-          !are_alike(one.factor, other.factor) || one.density(place).isZero(0.0))
+      if (!is_one_place || !one.life.overlaps(other.life)) continue;
+      if (one.density(place) != other.density(place) || !are_alike(one.factor, other.factor)) {
+        look_at_sum_of_weights(scene, one, other, place, remarks);
         continue;
+      }
+      if (one.density(place).isZero(0.0)) continue;
       const std::string& region = one.region.empty() ? other.region : one.region;
       remarks.push_back(
           {Rank::wrong, 2.0,

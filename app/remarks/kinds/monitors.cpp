@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -76,13 +77,37 @@ void look_at_displacement(const Scene& scene, const fem::Problem<dim>& problem,
        "read the displacement of the boundary that moves"});
 }
 
+/// Couples at the nodes of a foot, beside which its forces have a moment too. On a plate that moves they are meant.
+template <int dim>
+void look_at_couples(const Scene& scene, const fem::Problem<dim>& problem, const coupler::Monitor& monitor,
+                     Remarks& remarks) {
+  if (!fem::is_rotation(monitor.dof) || problem.mesh.nodes_on(monitor.on).size() < 2) return;
+  const HeldNodes<dim> held = held_nodes(problem, Movers::left_out);
+  const bool has_forces = std::ranges::any_of(problem.mesh.nodes_on(monitor.on), [&](int node) {
+    return std::ranges::find(held[static_cast<std::size_t>(node)], true) !=
+           held[static_cast<std::size_t>(node)].end();
+  });
+  if (!has_forces) return;
+  remarks.push_back(
+      {Rank::doubtful, 2.0,
+       scene.place({"monitors", monitor.name})
+           .fault(fmt::format(
+               "monitor '{}': the reaction of {} is the sum of the couples at the nodes, without the moment of "
+               "the forces there",
+               monitor.name, fem::name_of<dim>(monitor.dof))),
+       "for the whole moment add, in a formula, the reactions of parts of the boundary times their distances; of a beam "
+       "read {beam: NAME, value: moment}"});
+}
+
 }  // namespace
 
 void monitors(const Scene& scene, Remarks& remarks) {
   scene.the_case().with_problem([&](const auto& problem) {
     for (const coupler::Monitor& monitor : scene.the_case().monitors) {
-      if (monitor.kind == coupler::Monitor::Kind::reaction)
+      if (monitor.kind == coupler::Monitor::Kind::reaction) {
         look_at_reaction(scene, problem, monitor, remarks);
+        look_at_couples(scene, problem, monitor, remarks);
+      }
       if (monitor.kind == coupler::Monitor::Kind::displacement)
         look_at_displacement(scene, problem, monitor, remarks);
     }

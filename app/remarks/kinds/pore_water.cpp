@@ -165,6 +165,37 @@ class Look {
       add(Rank::doubtful, 2.0, {"water", "level"},
           "water: 'level' gives the water its weight, and the ground has no weight",
           "give the saturated weight below 'body', or leave out 'level'");
+    } else if (heavy) {
+      at_submerged_weight();
+    }
+  }
+
+  /// Below its level the water has its weight of its own accord: a submerged weight counts the lift twice.
+  void at_submerged_weight() {
+    constexpr double kLightest = 14e3;  // N/m^3, of saturated clay; peat has less
+    for (const auto& [name, region] : water_.regions()) {
+      double weight = 0.0;
+      for (const fem::BodyLoad<dim>& load : problem_.body_loads)
+        if (load.region.empty() || load.region == name)
+          weight -= load.factor.largest_magnitude() * load.density(problem_.mesh.nodes.front())(dim - 1);
+      const std::vector<int>& elements = problem_.mesh.regions.at(name);
+      const bool is_wet = std::ranges::any_of(elements, [&](int e) {
+        const auto& nodes = problem_.mesh.elements[static_cast<std::size_t>(e)].nodes;
+        return std::ranges::any_of(nodes, [&](int node) {
+          return problem_.mesh.nodes[static_cast<std::size_t>(node)](dim - 1) < *water_.options().table;
+        });
+      });
+      if (!is_wet || weight <= 0.0 || weight >= kLightest) continue;
+      add(Rank::doubtful, kLightest / weight, {"body"},
+          fmt::format(
+              "body: region '{}' weighs {:.4g} kN/m3 below the 'level' of the water, whose weight is in it: "
+              "saturated ground has 15 to 22 kN/m3",
+              name, 1e-3 * weight),
+          fmt::format(
+              "give the saturated weight, {:.4g} kN/m3 if this one is submerged, to 'body' and 'initial_stress'; or "
+              "leave out 'level'",
+              1e-3 * (weight + water_.options().unit_weight)));
+      return;
     }
   }
 
@@ -177,7 +208,9 @@ class Look {
       if (const auto* const free = dynamic_cast<const fem::FreeWater<dim>*>(contribution.get()))
         loaded.insert(free->on());
     for (const auto& given : problem_.prescribed_fields) {
-      if (!problem_.mesh.boundaries.contains(given.on) || loaded.contains(given.on)) continue;
+      if (given.field != fem::kPorePressure || !problem_.mesh.boundaries.contains(given.on) ||
+          loaded.contains(given.on))
+        continue;
       double largest = 0.0;
       for (const int node : problem_.mesh.nodes_on(given.on)) {
         const auto& x = problem_.mesh.nodes[static_cast<std::size_t>(node)];
@@ -252,7 +285,8 @@ class Look {
   /// Boundaries and node sets where water may leave.
   [[nodiscard]] std::vector<std::string> drained_places() const {
     std::vector<std::string> places;
-    for (const auto& given : problem_.prescribed_fields) places.push_back(given.on);
+    for (const auto& given : problem_.prescribed_fields)
+      if (given.field == fem::kPorePressure) places.push_back(given.on);
     for (const fem::OpenSide& side : water_.options().open_sides)
       if (side.holds(scene_.stage())) places.push_back(side.on);
     return places;

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 
+#include "app/remarks/base_motions.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
-#include "common/csv_table.hpp"
-#include "common/error.hpp"
-#include "coupler/case/data_files.hpp"
+#include "app/remarks/weight_at_start.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -23,24 +24,7 @@ constexpr double kHeavy = 12e3;             // lead
 constexpr double kElementsOfAWave = 4.0;    // of elements with middle nodes
 constexpr double kLostMotion = 0.02;        // of a motion
 constexpr double kMostAcceleration = 50.0;  // m/s2, five times gravity: an earthquake has 0.1 to 10
-
-/// Speed of shear waves in a region, m/s; nothing where a modulus is not known.
-std::optional<double> shear_speed(const Scene& scene, const SceneRegion& region) {
-  double shear = 0.0;
-  if (region.packing != nullptr) {
-    shear = region.packing->moduli.shear;
-  } else {
-    const auto young = scene.quantity({"materials", region.material, "E"}, Dimension::pressure);
-    const auto poisson = scene.quantity({"materials", region.material, "nu"}, Dimension::number);
-    if (young && poisson) shear = 0.5 * *young / (1.0 + *poisson);
-  }
-  const double density = scene.with_problem([&](const auto& problem) {
-    const auto found = problem.densities.find(region.name);
-    return found == problem.densities.end() ? 0.0 : found->second;
-  });
-  if (!(shear > 0.0 && density > 0.0)) return {};
-  return std::sqrt(shear / density);
-}
+constexpr double kMostInGravity = 1.5;      // the largest number that a record in g has
 
 /// @param frequency of the motion, Hz: half of its changes of sign, over its time
 void look_at_waves(const Scene& scene, const Entry& place, double frequency, Remarks& remarks) {
@@ -95,20 +79,47 @@ void look_at_drift(const Entry& place, const CsvTable& table, Remarks& remarks) 
        "let the accelerations of the file add up to no speed (a baseline correction)"});
 }
 
-void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
+/// Whether a text has the word g with no number before it: "in units of g", "quake_g.csv"; "0.1 g" is an intensity.
+bool names_gravity(const std::string& text) {
+  char before = ' ';  // the last one that is no space
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const auto is_letter = [&](std::size_t k) {
+      return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])) != 0;
+    };
+    const bool is_word = !is_letter(at + 1) && (at == 0 || !is_letter(at - 1));
+    if ((text[at] == 'g' || text[at] == 'G') && is_word &&
+        std::isdigit(static_cast<unsigned char>(before)) == 0)
+      return true;
+    if (text[at] != ' ') before = text[at];
+  }
+  return false;
+}
+
+/// A record in g whose numbers are taken for m/s2 is ten times too weak. Names of columns that say so are a fault.
+void look_at_unit(const Entry& place, const CsvTable& table, double largest, Remarks& remarks) {
+  const bool file_says = names_gravity(std::filesystem::path(place.text).filename().string());
+  if (largest >= kMostInGravity || !(file_says || std::ranges::any_of(table.comments(), names_gravity)))
+    return;
+  remarks.push_back(
+      {Rank::wrong, kGravity,
+       place.fault(fmt::format(
+           "boundary: the motion of '{}' reaches {:.3g} m/s2, {:.2g} times gravity, and {} of the "
+           "file says 'g'",
+           place.text, largest, largest / kGravity, file_says ? "the name" : "a comment")),
+       "accelerations are in m/s2: multiply those in g by 9.81"});
+}
+
+void look_at_motion(const Scene& scene, const Entry& place, const CsvTable& table, Remarks& remarks) {
   const auto end = scene.end_time();
-  const auto file = coupler::find_data_file(place.text, scene.the_case().file.parent_path());
-  if (!end || !file) return;
-  const CsvTable table(*file);
-  if (table.rows() < 2) return;
+  if (!end || table.rows() < 2) return;
   double last = 0.0;
-  double largest = 0.0;
   double turns = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (row > 0 && table.number(row, 1) * table.number(row - 1, 1) < 0.0) ++turns;
     last = std::max(last, table.number(row, 0));
-    largest = std::max(largest, std::abs(table.number(row, 1)));
   }
+  const double largest = largest_acceleration(table);
+  look_at_unit(place, table, largest, remarks);
   if (last > *end * (1.0 + kLostMotion))
     remarks.push_back(
         {last > 2.0 * *end ? Rank::wrong : Rank::doubtful, last / *end,
@@ -136,15 +147,43 @@ void look_at_motion(const Scene& scene, const Entry& place, Remarks& remarks) {
     remarks.push_back(
         {Rank::wrong, largest / kMostAcceleration,
          place.fault(fmt::format("boundary: the motion of '{}' reaches {:.4g} m/s2, {:.2g} times gravity",
-                                 place.text, largest, largest / 9.81)),
+                                 place.text, largest, largest / kGravity)),
          "accelerations are in m/s2: check the unit of the file"});
   if (last > 0.0) look_at_waves(scene, place, 0.5 * turns / last, remarks);
+}
+
+/// The weight of a region against that of its density. Submerged ground has the mass of its water and not its weight; in a
+/// centrifuge all weighs many times as much.
+void look_at_mass(const Scene& scene, const SceneRegion& region, Remarks& remarks) {
+  constexpr double kSlackOfMass = 0.15;
+  constexpr double kSubmerged = 14e3;  // N/m^3 at most
+  constexpr double kCentrifuge = 5.0;  // times gravity at least
+  const double density = scene.with_problem([&](const auto& problem) {
+    const auto found = problem.densities.find(region.name);
+    return found == problem.densities.end() ? 0.0 : found->second;
+  });
+  const double weight = weight_at_start(scene, region.name);
+  const double of_mass = kGravity * density;
+  const double lifted = of_mass - 1e3 * kGravity;
+  if (!(weight > 0.0 && density >= kLight && density <= kHeavy) || scene.find({"water"}) != nullptr ||
+      std::abs(of_mass - weight) <= kSlackOfMass * weight || weight > kCentrifuge * of_mass ||
+      (weight < kSubmerged && std::abs(lifted - weight) <= kSlackOfMass * weight))
+    return;
+  remarks.push_back(
+      {Rank::doubtful, std::max(of_mass / weight, weight / of_mass),
+       scene.place({"materials", region.material, "density"})
+           .fault(fmt::format(
+               "material '{}': a density of {:.4g} kg/m3 weighs {:.3g} kN/m3, and region '{}' has {:.3g} kN/m3 below body",
+               region.material, density, 1e-3 * of_mass, region.name, 1e-3 * weight)),
+       fmt::format("a weight of {:.3g} kN/m3 has a density of {:.0f} kg/m3", 1e-3 * weight,
+                   weight / kGravity)});
 }
 
 }  // namespace
 
 void densities(const Scene& scene, Remarks& remarks) {
   if (!scene.the_case().real_time) return;
+  for (const SceneRegion& region : scene.regions()) look_at_mass(scene, region, remarks);
   for (const SceneRegion& region : scene.regions()) {
     const auto density = scene.quantity({"materials", region.material, "density"}, Dimension::density);
     if (!density || (*density >= kLight && *density <= kHeavy)) continue;
@@ -159,19 +198,9 @@ void densities(const Scene& scene, Remarks& remarks) {
 }
 
 void motions(const Scene& scene, Remarks& remarks) {
-  const Entry* const boundary = scene.find({"boundary"});
-  if (!scene.the_case().real_time || boundary == nullptr) return;
-  for (const Entry& item : boundary->items) {
-    const Entry* const files = item.find("accelerate");
-    if (files == nullptr) continue;
-    for (const Entry::Member& member : files->members) {
-      try {
-        look_at_motion(scene, member.value, remarks);
-      } catch (const InputError&) {
-        continue;  // the case says so itself
-      }
-    }
-  }
+  for_each_base_motion(scene, [&](const Entry::Member& member, const CsvTable& table) {
+    look_at_motion(scene, member.value, table, remarks);
+  });
 }
 
 }  // namespace polargrain::app

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Elements much longer than wide, which follow no field across their length.
+// Elements much longer than wide, which follow no field across their length; elements of one point that bend.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -47,10 +48,65 @@ void look_at_shapes(const Scene& scene, const fem::Problem<dim>& problem, Remark
                      "divide the mesh so that elements are nearly as wide as long"});
 }
 
+/// A bar or plate of elements of one point: where it bends, its stiffness is that of hourglass springs.
+template <int dim>
+void look_at_bending(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
+  constexpr double kSlender = 3.0;
+  constexpr double kFewest = 4.0;  // elements over the thickness
+  const std::vector<double>& sides = scene.body().sides;
+  const auto thin = static_cast<Eigen::Index>(std::ranges::min_element(sides) - sides.begin());
+  const double thickness = scene.body().smaller_side();
+  if (!problem.ties.empty() || scene.body().larger_side() < kSlender * thickness) return;
+  const HeldNodes<dim> held = held_nodes(problem);
+  double least = HUGE_VAL;
+  double largest = -HUGE_VAL;
+  double extents = 0.0;
+  int count = 0;
+  for (const fem::Element<dim>& element : problem.mesh.elements) {
+    double from = HUGE_VAL;
+    double to = -HUGE_VAL;
+    for (const int node : element.nodes) {
+      const double at = problem.mesh.nodes[static_cast<std::size_t>(node)](thin);
+      from = std::min(from, at);
+      to = std::max(to, at);
+    }
+    least = std::min(least, from);
+    largest = std::max(largest, to);
+    if (element.type->quadrature.size() != 1) continue;
+    extents += to - from;
+    ++count;
+  }
+  if (count == 0) return;
+  // A layer whose face is held does not bend.
+  const auto is_held = [&](double face) {
+    for (const fem::Element<dim>& element : problem.mesh.elements)
+      for (const int node : element.nodes) {
+        const auto at = static_cast<std::size_t>(node);
+        if (std::abs(problem.mesh.nodes[at](thin) - face) < 1e-6 * thickness &&
+            !held[at][static_cast<std::size_t>(thin)])
+          return false;
+      }
+    return true;
+  };
+  const double elements = thickness * count / extents;
+  if (elements > kFewest - 0.01 || is_held(least) || is_held(largest)) return;
+  remarks.push_back(
+      {Rank::doubtful, kFewest / elements,
+       scene.place({"mesh"}).fault(fmt::format(
+           "mesh: elements of one point over the thickness of {:.3g} m: {:.2g} (at least {:g}); where the body bends, its "
+           "stiffness is that of hourglass springs",
+           thickness, elements, kFewest)),
+       fmt::format("element: {}, or {:g} and more elements over the thickness", dim == 2 ? "Q8R" : "H20R",
+                   kFewest)});
+}
+
 }  // namespace
 
 void shape_of_elements(const Scene& scene, Remarks& remarks) {
-  scene.with_problem([&](const auto& problem) { look_at_shapes(scene, problem, remarks); });
+  scene.with_problem([&](const auto& problem) {
+    look_at_shapes(scene, problem, remarks);
+    look_at_bending(scene, problem, remarks);
+  });
 }
 
 }  // namespace polargrain::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
@@ -69,13 +70,19 @@ std::vector<double> begins_of(const Scene& scene) {
   return begins;
 }
 
-/// Whether a stage after the first and up to the last of these ends the item of that name.
+/// Whether one of these stages ends the item of that name, by its key `end` or by an item of the same name.
 bool is_ended(const Entry& stages, std::size_t first, std::size_t last, const Entry* name) {
-  for (std::size_t k = first + 1; name != nullptr && k <= last; ++k) {
-    const Entry* const end = stages.items[k].find("end");
-    if (end == nullptr) continue;
+  for (std::size_t k = first; name != nullptr && k <= last; ++k) {
     const auto is_name = [&](const Entry& word) { return word.text == name->text; };
-    if (is_name(*end) || std::ranges::any_of(end->items, is_name)) return true;
+    if (const Entry* const end = stages.items[k].find("end");
+        end != nullptr && (is_name(*end) || std::ranges::any_of(end->items, is_name)))
+      return true;
+    const Entry* const items = stages.items[k].find("boundary");
+    if (items != nullptr && std::ranges::any_of(items->items, [&](const Entry& item) {
+          const Entry* const of_item = item.find("name");
+          return of_item != nullptr && is_name(*of_item);
+        }))
+      return true;
   }
   return false;
 }
@@ -139,26 +146,34 @@ void loads_of_stages(const Scene& scene, Remarks& remarks) {
 
 namespace {
 
-/// The pressure of a stage on a place that an earlier stage loads by less: most often the new whole is meant.
-void look_at_sum(const Scene& scene, const Entry& stages, std::size_t before, std::size_t now,
+/// The loads of a stage, or of the case from its start.
+struct LoadsBefore {
+  const Entry* items;
+  std::string of;              ///< in words
+  std::size_t next;            ///< the first stage that may end them
+  double most_times_as_large;  ///< a sum that is larger is meant
+};
+
+/// The pressure of a stage on a place that is loaded by less: most often the new whole is meant.
+void look_at_sum(const Scene& scene, const Entry& stages, const LoadsBefore& before, std::size_t now,
                  Remarks& remarks) {
-  const Entry* const earlier = stages.items[before].find("boundary");
   const Entry* const later = stages.items[now].find("boundary");
-  if (earlier == nullptr || later == nullptr) return;
-  for (const Entry& one : earlier->items)
+  if (before.items == nullptr || later == nullptr) return;
+  for (const Entry& one : before.items->items)
     for (const Entry& other : later->items) {
       const auto first = single_pressure(one);
       const auto second = single_pressure(other);
-      if (!first || !second || !(*first > 0.0) || *second <= *first || !are_on_one_place(one, other) ||
-          is_ended(stages, before, now, one.find("name")))
+      if (!first || !second || !(*first > 0.0) || *second <= *first ||
+          *second > before.most_times_as_large * *first || !are_on_one_place(one, other) ||
+          is_ended(stages, before.next, now, one.find("name")))
         continue;
       remarks.push_back(
           {Rank::doubtful, 2.0,
            other.find("pressure")
-               ->fault(fmt::format(
-                   "boundary: stage '{}' adds {} on '{}' to the {} of stage '{}': {} together",
-                   scene.the_case().stages[now].name, pascals(*second), other.find("on")->text,
-                   pascals(*first), scene.the_case().stages[before].name, pascals(*first + *second))),
+               ->fault(fmt::format("boundary: stage '{}' adds {} on '{}' to the {} of {}: {} together",
+                                   scene.the_case().stages[now].name, pascals(*second),
+                                   other.find("on")->text, pascals(*first), before.of,
+                                   pascals(*first + *second))),
            fmt::format(
                "loads of stages add up: give the increase, {}, or name the first (name: NAME) and end it "
                "(end: NAME)",
@@ -171,8 +186,16 @@ void look_at_sum(const Scene& scene, const Entry& stages, std::size_t before, st
 void sums_of_stages(const Scene& scene, Remarks& remarks) {
   const Entry* const stages = scene.find({"steps", "stages"});
   if (stages == nullptr || stages->items.size() != scene.the_case().stages.size()) return;
-  for (std::size_t now = 1; now < stages->items.size(); ++now)
-    for (std::size_t before = 0; before < now; ++before) look_at_sum(scene, *stages, before, now, remarks);
+  // A small surcharge from the start balances the stress there, and a larger load comes beside it.
+  constexpr double kRaised = 1.8;
+  for (std::size_t now = 0; now < stages->items.size(); ++now) {
+    look_at_sum(scene, *stages, {scene.find({"boundary"}), "the case's own list", 0, kRaised}, now, remarks);
+    for (std::size_t before = 0; before < now; ++before)
+      look_at_sum(scene, *stages,
+                  {stages->items[before].find("boundary"),
+                   fmt::format("stage '{}'", scene.the_case().stages[before].name), before + 1, HUGE_VAL},
+                  now, remarks);
+  }
 }
 
 }  // namespace polargrain::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -56,14 +57,16 @@ void last_point(const coupler::Entry& entry, double& last, const coupler::Entry*
   for (const coupler::Entry::Member& member : entry.members) last_point(member.value, last, at);
 }
 
-/// The first single value of a movement, which is reached at time 1.
+/// The first single value of a movement that is not zero: it is reached at time 1.
 const coupler::Entry* single_movement(const Scene& scene) {
   const coupler::Entry* const boundary = scene.find({"boundary"});
   if (boundary == nullptr) return nullptr;
   for (const coupler::Entry& item : boundary->items)
     if (const coupler::Entry* const moved = item.find("move"))
       for (const coupler::Entry::Member& member : moved->members)
-        if (member.value.kind == coupler::Entry::Kind::scalar) return &member.value;
+        if (member.value.kind == coupler::Entry::Kind::scalar &&
+            std::strtod(member.value.text.c_str(), nullptr) != 0.0)
+          return &member.value;
   return nullptr;
 }
 
@@ -108,9 +111,56 @@ void missed_turns(const Scene& scene, Remarks& remarks) {
        "let steps end where loads turn: stages: [{until: TIME OF THE TURN, count: ...}, ...], or more steps"});
 }
 
+namespace {
+
+/// The time at which the case ends, as it is written; null where it is not.
+const coupler::Entry* written_end(const Scene& scene) {
+  if (const coupler::Entry* const duration = scene.find({"steps", "duration"})) return duration;
+  const coupler::Entry* const stages = scene.find({"steps", "stages"});
+  return stages == nullptr || stages->items.empty() ? nullptr : stages->items.back().find("until");
+}
+
+/// The last time of each table whose unit is not written.
+void plain_times(const coupler::Entry& entry, std::vector<const coupler::Entry*>& times) {
+  const coupler::Entry* const point = entry.items.empty() ? nullptr : &entry.items.back();
+  if (entry.items.size() > 1 && point->items.size() == 2 &&
+      coupler::parse_quantity(point->items[0].text, coupler::Dimension::number))
+    times.push_back(&point->items[0]);
+  for (const coupler::Entry& item : entry.items) plain_times(item, times);
+  for (const coupler::Entry::Member& member : entry.members) plain_times(member.value, times);
+}
+
+/// A time without a unit is in seconds, beside times in days.
+void look_at_plain_times(const Scene& scene, double end, Remarks& remarks) {
+  constexpr double kSudden = 0.01;  // of the run
+  const coupler::Entry* const written = written_end(scene);
+  if (written == nullptr || scene.the_case().real_time ||
+      !coupler::parse_quantity(written->text, coupler::Dimension::duration) ||
+      coupler::is_plain_number(written->text) || written->text.ends_with('s'))
+    return;
+  std::vector<const coupler::Entry*> times;
+  for (const Scene::Path& path :
+       {Scene::Path{"boundary"}, Scene::Path{"body"}, Scene::Path{"steps", "stages"}})
+    if (const coupler::Entry* const entry = scene.find(path)) plain_times(*entry, times);
+  for (const coupler::Entry* const time : times) {
+    const double last = *coupler::parse_quantity(time->text, coupler::Dimension::number);
+    if (last <= 0.0 || last >= kSudden * end) continue;
+    remarks.push_back(
+        {Rank::doubtful, kSudden * end / last,
+         time->fault(fmt::format(
+             "a load reaches its last value at time '{0}', which has no unit and is {0} s; the run takes {1}",
+             time->text, written->text)),
+         fmt::format("write the unit, as in '{0} d'; or '{0} s' for a load that comes at once", time->text)});
+    return;
+  }
+}
+
+}  // namespace
+
 void times_of_loads(const Scene& scene, Remarks& remarks) {
   const auto end = scene.end_time();
   if (!end) return;
+  look_at_plain_times(scene, *end, remarks);
   double last = 0.0;
   const coupler::Entry* at = nullptr;
   for (const char* const key : {"boundary", "body"})
@@ -127,8 +177,25 @@ void times_of_loads(const Scene& scene, Remarks& remarks) {
                      last, *end)});
 }
 
+namespace {
+
+/// In real time a body goes on by itself. But a single value of a movement is reached at 1 s, however long the run.
+void look_at_single_movement(const Scene& scene, Remarks& remarks) {
+  const coupler::Entry* const single = single_movement(scene);
+  const auto end = scene.end_time();
+  if (single == nullptr || !end || *end <= 1.0 + 1e-9) return;
+  remarks.push_back(
+      {Rank::doubtful, std::max(*end, 1.0),
+       single->fault(fmt::format(
+           "boundary: the movement of '{}' is over at 1 s, as that of each single value, and the run ends at {:g} s",
+           single->text, *end)),
+       fmt::format("give its times: [[0, 0], [{:g}, {}]]", *end, single->text)});
+}
+
+}  // namespace
+
 void idle_steps(const Scene& scene, Remarks& remarks) {
-  if (scene.the_case().real_time) return;  // a body goes on by itself
+  if (scene.the_case().real_time) return look_at_single_movement(scene, remarks);
   const auto end = scene.end_time();
   // Where parts come or go, and where water flows, that is what changes.
   if (!end || scene.the_case().with_problem([](const auto& problem) { return problem.stages.size(); }) > 1 ||

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Forces and moments on nodes, and rotations of beams: what acts otherwise than a user may think is told.
+#include "tests/support/careless_features.hpp"
+
+namespace polargrain::testing {
+namespace {
+
+using app::Rank;
+
+/// Of a bar of 2 m in space: sides of nodes of 8, so 5 nodes along an edge of 2 elements and 21 on a face of 2 by 2.
+const std::string kBarInSpace = R"(title: A bar with a load at its tip
+mesh: {box: {size: [2 m, 0.2 m, 0.2 m], elements: [8, 2, 2]}}
+materials: {bar: {model: elastic, E: 30 GPa, nu: 0.2, Gc: 12 GPa, lc: 20 mm}}
+regions: {all: bar}
+boundary:
+  - {on: left, fix: [u1, u2, u3]}
+  - {on: top_front_right, node_force: {u3: [[0, 0 kN], [1, -10 kN]]}}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {tip: {on: right, displacement: u3}, support: {on: left, reaction: u3}}
+)";
+
+/// 17 nodes along a level of 8 elements; an interface there makes two of each.
+const std::string kLevel = R"(title: A load at a level inside of ground
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 2 m], elements: [8, 4], levels: {middle: 1 m}}}
+materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}
+regions: {all: soil}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: middle, node_force: {u2: [[0, 0 kN/m], [1, -10 kN/m]]}}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {support: {on: bottom, reaction: u2}}
+)";
+
+const std::string kSector = R"(title: A point load on a quarter of a cylinder
+continuum: cauchy
+mesh: {cylinder: {radius: 0.5 m, height: 0.5 m, elements: [4, 1, 4], sector: quarter}}
+materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}
+regions: {all: soil}
+boundary:
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: front, fix: [u2]}
+  - {on: left, fix: [u1]}
+  - {on: top_axis, node_force: {u3: [[0, 0 kN], [1, -10 kN]]}}
+steps: {count: 1, tolerance: 1e-6}
+monitors: {force: {on: bottom, reaction: u3}}
+)";
+
+const std::string kHalfRaft = R"(title: The right half of a raft
+continuum: cauchy
+mesh: {rectangle: {size: [12 m, 8 m], elements: [12, 4], lines: {raft: [0 m, 8 m, 4 m, 8 m]}}}
+materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}
+regions: {all: soil}
+beams: {plate: {on: raft, EA: 15000 MN/m, EI: 312 MNm2/m}}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: raft, pressure: [[0, 0 kPa], [1, 200 kPa]]}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {moment: {beam: plate, value: moment}}
+)";
+
+const std::string kWallInGround = R"(title: A wall at the side of ground
+continuum: cauchy
+mesh: {rectangle: {size: [8 m, 4 m], elements: [8, 4]}}
+materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}
+regions: {all: soil}
+interfaces: {skin: {on: left, friction: 20 deg}}
+beams: {sheet: {on: left, EA: 3000 MN/m, EI: 20 MNm2/m}}
+boundary:
+  - {on: right, fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: sheet_bottom, fix: [u1, u2]}
+  - {on: sheet_top, node_force: {u1: [[0, 0 kN/m], [1, 40 kN/m]]}}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {moment: {beam: sheet, value: moment}}
+)";
+
+const std::string kFoot = R"(title: The moment at the foot of a wall
+mesh: {rectangle: {size: [0.5 m, 4 m], elements: [2, 16]}}
+materials: {bar: {model: elastic, E: 30 GPa, nu: 0.2, Gc: 6 GPa, lc: 50 mm}}
+regions: {all: bar}
+boundary:
+  - {on: bottom, fix: [u1, u2, w]}
+  - {on: left, pressure: [[0, 0 kPa], [1, 20 kPa]]}
+steps: {count: 1, tolerance: 1e-8}
+monitors: {force: {on: bottom, reaction: u1}}
+)";
+
+class CarelessMoments : public ::testing::TestWithParam<Careless> {};
+
+/// The base is silent about it, the scene tells.
+TEST_P(CarelessMoments, AreTold) {
+  const Careless& scene = GetParam();
+  const app::Remarks remarks = remarks_of(scene);
+  EXPECT_TRUE(is_told_of_features(remarks, scene.message, scene.rank)) << app::text_of(remarks, true);
+  if (scene.good.empty()) return;
+  const app::Remarks before = remarks_of({scene.name, scene.base, "", ""});
+  EXPECT_FALSE(is_told_of_features(before, scene.message, scene.rank)) << app::text_of(before, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CarelessMoments,
+    ::testing::Values(
+        Careless{"AForceOnAnEdge", kBarInSpace, "top_front_right", "top_right",
+                 "each of the 5 nodes of 'top_right' takes a force of 10 kN: 50 kN in all", Rank::doubtful},
+        Careless{"AMomentOnAFace", kBarInSpace,
+                 "{on: top_front_right, node_force: {u3: [[0, 0 kN], [1, -10 kN]]}}",
+                 "{on: right, node_force: {w2: [[0, 0 kNm], [1, 10 kNm]]}}",
+                 "each of the 21 nodes of 'right' takes a moment of 10 kNm: 210 kNm in all", Rank::doubtful},
+        Careless{"AForceOnALevel", kLevel, "", "",
+                 "each of the 17 nodes of 'middle' takes a force of 10 kN/m: 170 kN/m in all",
+                 Rank::doubtful},
+        Careless{
+            "AForceOnALevelThatAnInterfaceParts",
+            replaced(kLevel, "boundary:", "interfaces: {gap: {on: middle, friction: 30 deg}}\nboundary:"), "",
+            "", "each of the 17 nodes of 'middle' takes a force of 10 kN/m: 170 kN/m in all", Rank::doubtful},
+        Careless{
+            "AForceOnTheAxisOfAQuarter", kSector, "", "",
+            "'top_axis' is on the axis, and the mesh is a quarter of the cylinder: 10 kN on this sector are 40 kN",
+            Rank::doubtful},
+        Careless{"AHingeAtAPlaneOfSymmetry", replaced(kHalfRaft, "fix: [u1]}", "fix: [u1, w]}"),
+                 "fix: [u1, w]}", "fix: [u1]}", "beams: 'plate' ends at (0, 8)", Rank::doubtful},
+        Careless{"AHingeBesideAClamp", replaced(kHalfRaft, "MNm2/m}", "MNm2/m, clamped: [plate_left]}"),
+                 ", clamped: [plate_left]}", "}", "on a side where u1 is fixed, and may turn there",
+                 Rank::doubtful},
+        Careless{
+            "AForceOnTheGroundBesideAWall", kWallInGround, "{on: sheet_top, node_force",
+            "{on: top_left, node_force",
+            "the force on 'top_left' acts on the ground, and not on the wall, whose own node there is in 'sheet_top'",
+            Rank::doubtful},
+        Careless{"AMomentOnAHeldRotation", kWallInGround,
+                 "{on: sheet_top, node_force: {u1: [[0, 0 kN/m], [1, 40 kN/m]]}}",
+                 "{on: sheet_top, fix: [w], node_force: {w: [[0, 0 kN], [1, 40 kN]]}}",
+                 "the moment on 'sheet_top' has no effect: the rotation is prescribed at all of its nodes"},
+        Careless{"CouplesForTheMoment", kFoot, "reaction: u1}", "reaction: w}",
+                 "the reaction of w is the sum of the couples at the nodes, without the moment of the forces",
+                 Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+/// On a plate that moves the couples are what is looked for (cases/studies/bent_column.yaml).
+TEST(CouplesOfAPlate, AreMeant) {
+  const std::string plate = replaced(kFoot, "  - {on: left, pressure: [[0, 0 kPa], [1, 20 kPa]]}\n",
+                                     "  - {on: top, fix: [w], move: {u1: 1 mm, u2: -1 mm}}\n");
+  const app::Remarks remarks =
+      remarks_of({"CouplesOfAPlate", plate, "bottom, reaction: u1}", "top, reaction: w}"});
+  EXPECT_FALSE(is_told_of_features(remarks, "sum of the couples", Rank::doubtful))
+      << app::text_of(remarks, true);
+}
+
+}  // namespace
+}  // namespace polargrain::testing
