@@ -235,7 +235,7 @@ TEST_F(Calibrate, RowsBelongToOneTest) {
   EXPECT_NE(named.out.find("reading errors, of 2 points"), std::string::npos) << named.errors;
 }
 
-// The last row of a test that broke off is none of its end, and a largest value there may be no peak.
+// A test that broke off has no end: its last row is not that, and a largest value there may be no peak.
 TEST_F(Calibrate, ATestThatBreaksOffHasNoLastValue) {
   make_laboratory();
   const std::string cell = content(scratch.path() / "cell.in");

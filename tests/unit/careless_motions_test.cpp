@@ -195,7 +195,8 @@ TEST(QuietBoundary, BesideAShakenBaseIsTold) {
   }
 }
 
-/// It is let go once the start is balanced: what moves it then would be dropped. A place that it is held at is none.
+/// A quiet boundary is let go once the start is balanced, and a movement given to it then would be dropped. A support is no
+/// movement.
 TEST(QuietBoundary, ThatIsMovedIsAFault) {
   const Scratch scratch("careless_quiet_moved");
   write(scratch.path() / "quake.csv", swings(201, 1.0));
