@@ -19,11 +19,19 @@
 namespace polargrain::dem {
 namespace {
 
+/// An MPI world of this process alone. Open MPI would start a daemon beside each such world (0.15 s, 20 MB, no start at
+/// all where there is no ssh, and an engine that ends in a forked child would wait for ever for the daemon's word); a world
+/// that never spawns others needs no daemon. Nor does it need the folder that Open MPI makes below /tmp: such worlds share
+/// its name, and one that starts while another removes it fails.
+void stay_alone() {
+  constexpr int kUsersOwnStays = 0;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", kUsersOwnStays);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", kUsersOwnStays);
+  setenv("OMPI_MCA_btl", "self", kUsersOwnStays);  // it speaks to nobody: no sockets, no shared memory
+}
+
 /// Makes a process that srun or mpirun has started forget it: every process of ours that runs engines is an MPI world
-/// of its own, or its engine would try to share its grains with the others. Open MPI would start a daemon beside each
-/// such world (0.15 s, 20 MB, no start at all where there is no ssh, and an engine that ends in a forked child would
-/// wait for ever for the daemon's word); a world that never spawns others needs no daemon. Nor does it need the folder that
-/// Open MPI makes below /tmp: such worlds share its name, and one that starts while another removes it fails.
+/// of its own, or its engine would try to share its grains with the others.
 void forget_launcher() {
   std::vector<std::string> names;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -33,9 +41,14 @@ void forget_launcher() {
     }
   }
   for (const std::string& name : names) unsetenv(name.c_str());
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
-  setenv("OMPI_MCA_orte_create_session_dirs", "0", 1);
-  setenv("OMPI_MCA_btl", "self", 1);  // it speaks to nobody: no sockets, no shared memory
+}
+
+/// Whether mpirun or srun has started this process as one of a world: each numbers its processes by one of these.
+bool has_launcher() {
+  for (const char* number : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "PMI_FD"}) {
+    if (std::getenv(number) != nullptr) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -46,6 +59,7 @@ void start_engine_process() {
   MPI_Initialized(&running);
   if (!running) {
     forget_launcher();
+    stay_alone();
     MPI_Init(nullptr, nullptr);
     std::atexit([] {
       int finalized = 0;
@@ -53,6 +67,11 @@ void start_engine_process() {
       if (!finalized) MPI_Finalize();
     });
   }
+}
+
+void start_standalone_process(int& argc, char**& argv) {
+  if (!has_launcher()) stay_alone();
+  MPI_Init(&argc, &argv);
 }
 
 /// The engine with what belongs to it.

@@ -15,6 +15,10 @@ namespace polargrain::dem {
 /// error ends the process at once and its words would be lost in the buffer. Call once, first.
 void start_engine_process();
 
+/// Starts MPI for LIGGGHTS's own command line: in the world of a launcher (mpirun, srun) where one has started this
+/// process, else for this process alone. The caller ends it by MPI_Finalize.
+void start_standalone_process(int& argc, char**& argv);
+
 /// One LIGGGHTS instance with this project's contact models and fixes (extension.hpp), and with its triclinic boxes
 /// repaired.
 /// Everything it prints goes to standard output. An engine error ends the PROCESS (MPI_Abort): that is

@@ -102,7 +102,7 @@ void run_script(std::vector<char*> words, const std::function<void()>& add_model
 
 int run_liggghts(int argc, char** argv, const std::function<void()>& add_models) {
   constexpr int kInputWrong = 2;
-  MPI_Init(&argc, &argv);
+  start_standalone_process(argc, argv);
   int status = 0;
   try {
     run_script({argv, argv + argc}, add_models);
