@@ -22,6 +22,7 @@
 #include "app/run/run_remarks.hpp"
 #include "app/run/sample.hpp"
 #include "app/run/soft_contacts.hpp"
+#include "app/run/sources_elsewhere.hpp"
 #include "app/run/start_text.hpp"
 #include "app/run/take_step.hpp"
 #include "common/error.hpp"
@@ -29,7 +30,6 @@
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "common/stepping_note.hpp"
-#include "coupler/case/document_kind.hpp"
 #include "coupler/cells/grains_of_points.hpp"
 #include "coupler/pool/log_excerpt.hpp"
 #include "coupler/pool/process.hpp"
@@ -571,33 +571,6 @@ int go(const RunOptions& options, coupler::Case the_case, const std::filesystem:
   return done ? 0 : 1;
 }
 
-/// A run that starts from its own result directory would erase its start.
-void check_start_is_elsewhere(const RunOptions& options, const coupler::Case& the_case,
-                              const std::filesystem::path& directory) {
-  std::error_code error;
-  if (the_case.start_from.empty() || !std::filesystem::equivalent(the_case.start_from, directory, error))
-    return;
-  throw InputError(
-      {options.case_file.string(), 0,
-       fmt::format("start_from: {} is the result directory of this run too, which would erase it; "
-                   "give another one with -o DIR",
-                   directory.string())});
-}
-
-/// The same of a file that the case is read with. A run that goes on erases nothing.
-void check_files_are_elsewhere(const RunOptions& options, const std::filesystem::path& directory) {
-  if (options.resume) return;
-  const coupler::Entry document =
-      coupler::load_document_of(coupler::DocumentKind::problem, options.case_file, options.settings);
-  for (const std::filesystem::path& file : coupler::files_named_in(document, options.case_file.parent_path()))
-    if (std::error_code error; std::filesystem::exists(file, error) && is_of_a_run(file, directory))
-      throw InputError(
-          {options.case_file.string(), 0,
-           fmt::format("{} lies in the result directory of this run, which would erase it; give another "
-                       "directory with -o DIR",
-                       file.string())});
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -615,8 +588,7 @@ int run(const RunOptions& options) {
   Remarks remarks = remarks_before(options, the_case);
   const std::filesystem::path directory =
       options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
-  check_start_is_elsewhere(options, the_case, directory);
-  check_files_are_elsewhere(options, directory);
+  check_sources_are_elsewhere(options, the_case, directory);
   stop_if_interrupted("before anything was written");
   const auto lock = prepare_result_directory(directory, options.resume);
   std::unique_ptr<coupler::Checkpoint> from;
