@@ -137,10 +137,14 @@ Neighbours neighbours_on(const fem::Mesh<2>& mesh, const std::string& on) {
   return beside;
 }
 
+/// The first place that a curve leaves in more than two ways, or the end of all places.
+Neighbours::const_iterator first_branch(const Neighbours& beside) {
+  return std::ranges::find_if(beside, [](const auto& one) { return one.second.size() > 2; });
+}
+
 std::vector<PlaceOfNode> in_order(const Neighbours& beside) {
   std::vector<PlaceOfNode> places;
-  const auto is_branch = [](const auto& one) { return one.second.size() > 2; };
-  if (std::ranges::any_of(beside, is_branch)) {
+  if (first_branch(beside) != beside.end()) {
     for (const auto& [place, others] : beside) places.push_back(place);
     return places;
   }
@@ -171,6 +175,27 @@ std::vector<PlaceOfNode> in_order(const Neighbours& beside) {
   return places;
 }
 
+/// Whether a name stands for an area, as 'all' does: a set that holds all nodes of some element.
+bool is_area(const fem::Mesh<2>& mesh, const std::string& on) {
+  const auto set = mesh.node_sets.find(on);
+  if (set == mesh.node_sets.end()) return false;
+  const std::set<int> nodes(set->second.begin(), set->second.end());
+  return std::ranges::any_of(mesh.elements, [&](const fem::Element<2>& element) {
+    return std::ranges::all_of(element.nodes, [&](int node) { return nodes.contains(node); });
+  });
+}
+
+/// Rows along several ways have no order, and a curve drawn through them would run to and fro.
+void check_branches(Section& section, const fem::Mesh<2>& mesh, const std::string& on) {
+  if (is_area(mesh, on)) return;
+  const Neighbours beside = neighbours_on(mesh, on);
+  const auto branch = first_branch(beside);
+  if (branch == beside.end()) return;
+  section.fault("on", fmt::format("on: '{}' branches at [{:.4g} m, {:.4g} m], and a profile goes one way; "
+                                  "give each branch a name in the mesh, or a line by 'from' and 'to'",
+                                  on, branch->first[0], branch->first[1]));
+}
+
 /// The nodes of a boundary: the settlement trough of a surface, a wall from below upwards, a lining around.
 std::vector<std::vector<double>> places_on(Section& section, CaseParts& parts) {
   const std::string on = section.text("on", "the name of a boundary or node set");
@@ -179,6 +204,7 @@ std::vector<std::vector<double>> places_on(Section& section, CaseParts& parts) {
   parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
     if (!parts.has_mesh || !problem.mesh.has_nodes_on(on)) return;
     if constexpr (dim == 2) {
+      check_branches(section, problem.mesh, on);
       places = places_along(problem.mesh, on);
     } else {
       for (const int node : problem.mesh.nodes_on(on)) {

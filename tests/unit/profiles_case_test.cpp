@@ -69,6 +69,25 @@ TEST(PlacesAlong, AProfileFollowsItsCurve) {
   EXPECT_EQ(places_along(mesh, "all").size(), mesh.nodes.size()) << "no curve: by coordinates";
 }
 
+// A curve with a side of its own in the middle: rows by coordinates would run to and fro between the ways.
+TEST_F(ProfilesCase, ACurveThatBranchesIsAFault) {
+  Faults faults;
+  CaseParts parts{.directory = directory(), .result = {}, .has_mesh = true, .faults = faults};
+  parts.result.problem.mesh = fem::rectangle({{4.0, 4.0}, {4, 4}}, "Q8R");
+  parts.result.problem.mesh.boundaries["bent"] = {{5, 0}, {5, 3}};
+  parts.result.problem.mesh.boundaries["parting"] = {{4, 2}, {5, 2}, {5, 3}};
+  std::ofstream(directory() / "profiles.yaml") << "bent: {on: bent, values: [u2]}\n"
+                                                  "everywhere: {on: all, values: [u2]}\n"
+                                                  "tee: {on: parting, values: [u2]}\n";
+  read_profiles(load_document(directory() / "profiles.yaml"), parts);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].line, 3);
+  EXPECT_EQ(
+      faults[0].message,
+      "profile 'tee': on: 'parting' branches at [1 m, 2 m], and a profile goes one way; give each branch a name in "
+      "the mesh, or a line by 'from' and 'to'");
+}
+
 TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_EQ(
       fault("at: [1 m, 0.5 m]", "at: [3 m, 0.5 m]"),
