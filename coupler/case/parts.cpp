@@ -74,6 +74,17 @@ CaseParts::Counts CaseParts::counts() const {
   });
 }
 
+void CaseParts::take_structure_name(Section& all, const std::string& name) {
+  all.find(name);
+  if (!structure_names.insert(name).second)
+    all.fault(name, fmt::format("{}: another interface, beam or anchor has this name", name));
+}
+
+void CaseParts::add_structure(const std::string& name, Structure::Kind kind, const std::string& along) {
+  Structure& one = structures.try_emplace(name, Structure{kind, {}, along}).first->second;
+  one.contributions.push_back(counts().back());
+}
+
 std::string CaseParts::region(Section& section, const std::string& key) {
   if (section.find(key) == nullptr) return {};
   std::string name = section.text(key, "the name of a region");

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,12 @@ struct CaseParts {
     std::string along = {};  ///< of an interface: the beam that it lies along, with which it comes
   };
   std::map<std::string, Structure> structures = {};
+  /// Names that are taken, by those that are not understood and by sides of walls too.
+  std::set<std::string> structure_names = {};
+  /// Finds the key of a structure and takes it for its name; a fault when another structure has it.
+  void take_structure_name(Section& all, const std::string& name);
+  /// Of the contribution to the problem that comes next.
+  void add_structure(const std::string& name, Structure::Kind kind, const std::string& along = {});
 
   /// "a, b, c" of the keys of a map, for messages.
   template <class Map>
@@ -116,6 +123,8 @@ struct CaseParts {
 void read_mesh(const Entry& entry, CaseParts& parts);
 /// Behind the mesh and before all that names parts of it. @param interfaces, beams, anchors null where the case lacks them
 void read_structures(const Entry* interfaces, const Entry* beams, const Entry* anchors, CaseParts& parts);
+/// Behind the interfaces and beams, whose nodes they may hold.
+void read_anchors(const Entry& anchors, CaseParts& parts);
 /// Reads `packing` and `roughness` of an interface with `friction: measured`. @returns nothing, with faults, when that was not measured
 std::optional<MeasuredWall> read_measured_friction(Section& section, CaseParts& parts);
 /// Checks and completes the supports that they need: to be called when these have been read.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Interfaces, beams and anchors: they change the mesh, so they are read behind it and before what names its parts.
+// Interfaces and beams: they change the mesh, so they are read behind it and before what names its parts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +7,10 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "common/error.hpp"
 #include "coupler/case/parts.hpp"
-#include "fem/beam/anchor.hpp"
 #include "fem/beam/beam.hpp"
 #include "fem/interface/interface.hpp"
 #include "fem/mesh/split.hpp"
@@ -45,7 +43,7 @@ class StructuresReader {
     // Without structures that are not understood their nodes are missing: names of these would be faults that only follow.
     if (parts_.faults.size() > faults_before) parts_.has_mesh = false;
     if (parts_.has_mesh) build();
-    if (anchors != nullptr) read_anchors(*anchors);
+    if (anchors != nullptr) read_anchors(*anchors, parts_);
   }
 
  private:
@@ -72,9 +70,7 @@ class StructuresReader {
   void each(const Entry& entry, const std::string& key, Read read) {
     Section all(entry, key, parts_.faults);
     for (const Entry::Member& member : entry.members) {
-      all.find(member.key);
-      if (!names_.insert(member.key).second)
-        all.fault(member.key, fmt::format("{}: another interface, beam or anchor has this name", member.key));
+      parts_.take_structure_name(all, member.key);
       Section section(member.value, fmt::format("{} '{}'", key.substr(0, key.size() - 1), member.key),
                       parts_.faults);
       name_ = member.key;
@@ -372,19 +368,11 @@ class StructuresReader {
       }
     }
     if constexpr (dim == 2) {
-      add_structure(curve.beam->name, CaseParts::Structure::Kind::beam);
+      parts_.add_structure(curve.beam->name, CaseParts::Structure::Kind::beam);
       problem_.contributions.push_back(std::make_shared<fem::Beam>(problem_.mesh, curve.beam->name,
                                                                    curve.beam->section, std::move(elements)));
       beams_[curve.beam->name] = problem_.contributions.back();
     }
-  }
-
-  /// Of the contribution that comes next.
-  void add_structure(const std::string& name, CaseParts::Structure::Kind kind,
-                     const std::string& along = {}) {
-    CaseParts::Structure& one =
-        parts_.structures.try_emplace(name, CaseParts::Structure{kind, {}, along}).first->second;
-    one.contributions.push_back(problem_.contributions.size());
   }
 
   void check_clamped() {
@@ -435,19 +423,19 @@ class StructuresReader {
       for (std::size_t a = 0; a < face.second_nodes.size(); ++a)
         if (face.first_nodes[a] == face.second_nodes[a]) settings.single_nodes.insert(face.first_nodes[a]);
     const std::string along = curve.beam ? curve.beam->name : "";
-    add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
+    parts_.add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
     const std::pair<std::string, std::string> sides = sides_of(curve, first);
     if (!second.empty()) settings.name = name_on_side(here, sides.first);
     add_interface(settings, std::move(first), curve, walls);
     if (second.empty()) return;
     settings.name = name_on_side(here, sides.second);
-    add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
+    parts_.add_structure(here.settings.name, CaseParts::Structure::Kind::interface, along);
     add_interface(settings, std::move(second), curve, walls);
   }
 
   std::string name_on_side(const InterfaceHere& here, const std::string& side) {
     std::string name = here.settings.name + " " + side;
-    if (!names_.insert(name).second)
+    if (!parts_.structure_names.insert(name).second)
       parts_.faults.push_back(here.entry->fault(fmt::format(
           "interface '{}': its {} side is '{}', a name that another interface, beam or anchor has; "
           "rename one of them",
@@ -522,92 +510,10 @@ class StructuresReader {
     return entries;
   }
 
-  void read_anchors(const Entry& entry) {
-    Section all(entry, "anchors", parts_.faults);
-    bool all_are_there = entry.kind == Entry::Kind::map;
-    for (const Entry::Member& member : entry.members) {
-      all.find(member.key);
-      if (!names_.insert(member.key).second)
-        all.fault(member.key, fmt::format("{}: another interface, beam or anchor has this name", member.key));
-      Section section(member.value, fmt::format("anchor '{}'", member.key), parts_.faults);
-      all_are_there = read_anchor(section, member.key) && all_are_there;
-      section.finish();
-    }
-    all.finish();
-    if (!all_are_there) parts_.has_mesh = false;  // as above: their names would be faults that only follow
-  }
-
-  /// The one node of a place. @returns -1 and a fault when it has more nodes, or no node
-  int node_of(Section& section, const std::string& key) {
-    const std::string name = section.text(key, "the name of a set of one node, or in 'to' a place [x1, x2]");
-    if (!parts_.has_mesh || name.empty()) return -1;
-    const std::size_t faults_before = parts_.faults.size();
-    parts_.check_places(section, key, {name});
-    if (parts_.faults.size() > faults_before) return -1;
-    const std::vector<int> nodes = problem_.mesh.nodes_on(name);
-    if (nodes.size() == 1) return nodes.front();
-    section.fault(
-        key, fmt::format("{}: '{}' has {} nodes; an anchor needs one: a physical point, or the end of a beam",
-                         key, name, nodes.size()));
-    return -1;
-  }
-
-  /// @returns whether it is there, so that others can name it
-  bool read_anchor(Section& section, const std::string& name) {
-    const Dimension force =
-        dim == 2 && section.find("spacing") == nullptr ? Dimension::force_per_length : Dimension::force;
-    const double spacing =
-        dim == 2 ? section.quantity_or("spacing", Dimension::length, Limit::positive, 1.0) : 1.0;
-    fem::AnchorSettings<dim> settings;
-    settings.name = name;
-    const std::size_t faults_before = parts_.faults.size();
-    settings.from = node_of(section, "from");
-    const Entry* const to = section.find("to");
-    if (to != nullptr && to->kind == Entry::Kind::sequence) {
-      const std::vector<double> place = section.quantities("to", dim, Dimension::length, Limit::any);
-      for (int i = 0; i < dim; ++i) settings.fixed(i) = place[static_cast<std::size_t>(i)];
-    } else {
-      settings.to = node_of(section, "to");
-    }
-    const bool has_ends =
-        parts_.faults.size() == faults_before && settings.from >= 0 && settings.to.value_or(0) >= 0;
-    read_forces(section, force, spacing, settings);
-    // A wrong number is a fault of its own: the anchor stays known to the names of it that follow.
-    if (!has_ends) return false;
-    try {
-      auto anchor = std::make_shared<fem::Anchor<dim>>(problem_.mesh, settings);
-      add_structure(name, CaseParts::Structure::Kind::anchor);
-      problem_.contributions.push_back(std::move(anchor));
-      return true;
-    } catch (const RunError& error) {
-      section.fault("to", fmt::format("to: {}", error.what()));
-      return false;
-    }
-  }
-
-  void read_forces(Section& section, Dimension force, double spacing, fem::AnchorSettings<dim>& settings) {
-    const std::size_t faults_before = parts_.faults.size();
-    settings.axial_stiffness = section.quantity("EA", force, Limit::positive) / spacing;
-    settings.prestress = section.quantity_or("prestress", force, Limit::any, 0.0) / spacing;
-    settings.strength = section.quantity_or("strength", force, Limit::positive, HUGE_VAL) / spacing;
-    settings.compressive_strength =
-        section.quantity_or("compressive_strength", force, Limit::not_negative, HUGE_VAL) / spacing;
-    if (parts_.faults.size() > faults_before) return;  // numbers that would be compared are not known
-    if (settings.prestress < 0.0)
-      section.fault(
-          "prestress",
-          fmt::format("prestress: expected a tension, zero or greater, found '{}'; write it without "
-                      "the minus, or leave it out for a strut",
-                      section.find("prestress")->text));
-    else if (settings.prestress > settings.strength)
-      section.fault("prestress", "prestress: must not be beyond the strength");
-  }
-
   CaseParts& parts_;
   fem::Problem<dim>& problem_;
   std::vector<std::unique_ptr<Curve>> curves_;
   std::vector<std::pair<const Entry*, std::vector<std::string>>> clamped_sections_;
-  std::set<std::string> names_;
   std::map<std::string, std::shared_ptr<const fem::Contribution<dim>>> beams_;
   std::string name_;  ///< of what is read
 };
