@@ -212,12 +212,10 @@ class Run {
       if (!left_out_) left_out_ = warn_if(solver_->left_out());
       if (!doubt_) doubt_ = warn_if(fem::doubt_of_one_point_elements(*solver_));
       if (!soft_contacts_) soft_contacts_ = warn_if(soft_contacts(*solver_));
-      if (!unstable_ && solver_->has_lost_stability())
-        unstable_ = warn_if(fmt::format(
-            "the balance before step {} is unstable or has passed a bifurcation, as when a column buckles or a band forms: the "
-            "run follows the even path beyond it. Look at shorter steps, and give the body a small imperfection or side load",
-            step));
+      if (solver_->has_lost_stability()) warn_of_instability("before", step);
       if (step == case_.steps() || checkpoints_.is_due()) save_or_warn();
+      if (step == case_.steps() && !unstable_ && solver_->has_lost_stability_at_end())
+        warn_of_instability("at the end of", step);
       observer_.end_step(report.time);
     }
     return true;
@@ -426,6 +424,16 @@ class Run {
         log_.warn("  region '{}': {}", region, note);
       }
     }
+  }
+
+  /// Once a run. @param when of the step: "before"
+  void warn_of_instability(const char* when, int step) {
+    if (unstable_) return;
+    unstable_ = true;
+    warn(fmt::format(
+        "the balance {} step {} is unstable or has passed a bifurcation, as when a column buckles or a band forms: the run "
+        "follows the even path beyond it. Look at shorter steps, and give the body a small imperfection or side load",
+        when, step));
   }
 
   /// Warns when there is something to say; returns whether there was.

@@ -330,13 +330,35 @@ bool Newton<dim>::correction(const StepGoal& goal, const Iterate& iterate,
 }
 
 template <int dim>
+bool Newton<dim>::tells_stability() const {
+  return problem.deformation == Deformation::large && problem.fields.empty() &&
+         // Jumps of grains turn the sign too.
+         forces_of_noise<dim>(discretisation, problem.continuum, state.responses).size() == 0;
+}
+
+template <int dim>
 void Newton<dim>::watch_stability(const StepGoal& goal) {
-  if (problem.deformation != Deformation::large || !goal.controls_time() || !problem.fields.empty()) return;
-  // Jumps of grains turn the sign too.
-  if (forces_of_noise<dim>(discretisation, problem.continuum, state.responses).size() > 0) return;
+  if (!goal.controls_time() || !tells_stability()) return;
   const int sign = linear_solver_.sign_of_determinant();
   if (first_sign_ == 0) first_sign_ = sign;
   has_lost_stability_ = has_lost_stability_ || (sign != 0 && sign != first_sign_);
+}
+
+template <int dim>
+void Newton<dim>::watch_last_state() {
+  // Without a first sign there is nothing to compare with, and a large system need not be factorised.
+  if (!is_balanced_at_time_ || first_sign_ == 0 || !tells_stability()) return;
+  move_to_committed();
+  linear_solver_.begin_step();
+  if (!contributions.is_empty()) {
+    contributions.learn(discretisation, state.responses);
+    (void)contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
+  }
+  StepReport of_no_step;
+  const int sign =
+      factorise(state.responses, state.time, of_no_step) ? linear_solver_.sign_of_determinant() : 0;
+  has_lost_stability_ = has_lost_stability_ || (sign != 0 && sign != first_sign_);
+  contributions.revert();
 }
 
 template <int dim>
@@ -505,6 +527,7 @@ Attempt Newton<dim>::attempt(const StepGoal& goal, int cuts, StepReport& report)
         continue;
       }
       commit(iterate, balance, report);
+      is_balanced_at_time_ = goal.controls_time();
       return {true, ""};
     }
     if (!finite) return {false, "the residual is not finite"};
@@ -549,6 +572,7 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
   state.displacement += iterate.displacement;
   state.last_increment = iterate.displacement;
   state.time = iterate.time;
+  is_balanced_at_time_ = false;
   released_ = iterate.released;
   jump_let_go_ = iterate.jump_let_go;
   state.reactions.resize(0);

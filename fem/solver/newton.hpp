@@ -111,6 +111,8 @@ class Newton {
   /// Large deformation under given loads or movements, laws alone: whether the determinant of the tangent at a committed state
   /// had another sign than at the first one.
   [[nodiscard]] bool has_lost_stability() const { return has_lost_stability_; }
+  /// Looks at the committed state too, which no step comes after. Another factorisation of its tangent.
+  void watch_last_state();
   /// Drops the trial states.
   void revert();
   /// Puts mesh and loads where the committed displacements have them; nothing to do in small deformation.
@@ -178,6 +180,8 @@ class Newton {
   /// Hands on what the observer should know of the linear solver.
   void tell_of_solver();
   [[nodiscard]] bool factorise(const std::vector<Response<dim>>& responses, double time, StepReport& report);
+  /// Whether the sign of the determinant of a tangent tells stability.
+  [[nodiscard]] bool tells_stability() const;
   /// Looks at the tangent of the committed state, which must be the one factorised last.
   void watch_stability(const StepGoal& goal);
   [[nodiscard]] bool correction(const StepGoal& goal, const Iterate& iterate,
@@ -210,8 +214,9 @@ class Newton {
   LinearSolver linear_solver_;
   int first_sign_ = 0;  ///< of the determinant of the tangent; 0: not known yet
   bool has_lost_stability_ = false;
-  Eigen::VectorXd scaling_;  ///< of the equations (equation_scaling.hpp); empty without fields
-  NodalForces contributed_;  ///< of the evaluation made last
+  bool is_balanced_at_time_ = false;  ///< the committed state: by iterations, at a given time
+  Eigen::VectorXd scaling_;           ///< of the equations (equation_scaling.hpp); empty without fields
+  NodalForces contributed_;           ///< of the evaluation made last
   Anderson anderson_;
   bool converges_fast_ = false;  ///< the last iteration needs no acceleration
   Discretisation<dim> start_;    ///< large deformation: at the start of the step

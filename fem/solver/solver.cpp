@@ -490,6 +490,12 @@ bool Solver<dim>::has_lost_stability() const {
   return implementation_->has_lost_stability();
 }
 
+template <int dim>
+bool Solver<dim>::has_lost_stability_at_end() {
+  implementation_->watch_last_state();
+  return implementation_->has_lost_stability();
+}
+
 template class Solver<2>;
 template class Solver<3>;
 

@@ -329,6 +329,8 @@ class Solver {
   /// Whether a committed state before the last step was unstable or past a bifurcation, as far as the sign of the determinant of
   /// the tangent tells (Newton::has_lost_stability): two bifurcations within a step hide each other.
   [[nodiscard]] bool has_lost_stability() const;
+  /// The same, of the last state too: for the end of a run, where no step looks at it. Takes another factorisation.
+  [[nodiscard]] bool has_lost_stability_at_end();
 
  private:
   struct Implementation;

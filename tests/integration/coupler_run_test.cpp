@@ -88,6 +88,33 @@ TEST_F(RunTest, SaysWhereSmallDeformationIsOutgrown) {
   EXPECT_EQ(times_said(large.out + large.errors + result("large/run.log")), 0);
 }
 
+// Fixed below, free above: it buckles under pi^2 E I / (2 L)^2 = 12.85 kPa. No step comes after the last one, to look back at it.
+TEST_F(RunTest, SaysWhereAColumnEndsBeyondItsLoad) {
+  const auto column = [](const std::string& load) {
+    return "title: A column\n"
+           "mesh: {rectangle: {size: [10 cm, 4 m], elements: [1, 10]}}\n"
+           "continuum: cauchy\ndeformation: large\n"
+           "materials: {block: {model: elastic, E: 100 MPa, nu: 0}}\n"
+           "regions: {all: block}\n"
+           "boundary:\n"
+           "  - {on: bottom, fix: [u1, u2]}\n"
+           "  - {on: top, traction: {u2: [[0, 0], [1, -" +
+           load +
+           "]]}}\n"
+           "steps: {count: 4, tolerance: 1e-6}\n";
+  };
+  const std::string said = "the balance at the end of step 4 is unstable or has passed a bifurcation";
+  write(directory() / "beyond.yaml", column("13.5 kPa"));
+  const Outcome beyond = polargrain("run beyond.yaml -o beyond");
+  ASSERT_EQ(beyond.status, 0) << beyond.errors;
+  EXPECT_NE((beyond.out + beyond.errors).find(said), std::string::npos) << beyond.out << beyond.errors;
+  EXPECT_NE(result("beyond/run.log").find(said), std::string::npos);
+  write(directory() / "below.yaml", column("12 kPa"));
+  const Outcome below = polargrain("run below.yaml -o below");
+  ASSERT_EQ(below.status, 0) << below.errors;
+  EXPECT_EQ((below.out + below.errors).find("unstable"), std::string::npos) << below.errors;
+}
+
 TEST_F(RunTest, ModuliThatNobodyGivesComeFromThePacking) {
   write(directory() / "open.yaml",
         case_text("{model: cell, script: fake.in, packing: grains.csv, lc: 20 mm}"));

@@ -107,15 +107,20 @@ TEST(large_deformation, pressure_all_round_compresses_by_the_exponential) {
   EXPECT_LT(std::abs(error), 1e-5);  // midpoint rule: step^2 / 12 of a strain of 0.05
 }
 
-// Fixed below, free above: pi^2 E I / (2 L)^2. Nothing pushes it aside, and Newton's iterations follow the straight path.
-TEST(large_deformation, a_column_beyond_the_load_of_euler_is_unstable) {
+/// Fixed below, free above: pi^2 E I / (2 L)^2 at time 1. Nothing pushes it aside, and Newton's iterations follow the
+/// straight path.
+Problem<2> column_under_twice_the_load_of_euler() {
   Problem<2> problem = elastic_block({{0.1, 4.0}, {1, 10}}, {100e6, 0.0, 50e6, 0.1, Vector7::Zero()});
   problem.continuum = Continuum::cauchy;
   problem.prescribed = {{"bottom", Dof::u1, kZeroOfLarge, {}}, {"bottom", Dof::u2, kZeroOfLarge, {}}};
   const double euler = std::pow(M_PI / 8.0, 2) * 100e6 * std::pow(0.1, 3) / 12.0;  // N/m
   problem.boundary_loads = {{.on = "top"}};
   problem.boundary_loads.front().traction[1] = TimeTable::ramp(-2.0 * euler / 0.1, 2.0);
-  Solver<2> solver(std::move(problem), {});
+  return problem;
+}
+
+TEST(large_deformation, a_column_beyond_the_load_of_euler_is_unstable) {
+  Solver<2> solver(column_under_twice_the_load_of_euler(), {});
   ASSERT_TRUE(solver.equilibrate().converged);
   // The step to come looks at the state before it; the shear and the strain of 1e-4 move the load by less than 1 %.
   for (const double load : {0.5, 0.95, 1.05}) {
@@ -124,6 +129,18 @@ TEST(large_deformation, a_column_beyond_the_load_of_euler_is_unstable) {
   }
   ASSERT_TRUE(solver.advance(1.06).converged);
   EXPECT_TRUE(solver.has_lost_stability());
+}
+
+// No step comes after the last one.
+TEST(large_deformation, a_column_that_ends_beyond_the_load_of_euler_is_unstable) {
+  for (const double end : {0.95, 1.05}) {
+    Solver<2> solver(column_under_twice_the_load_of_euler(), {});
+    ASSERT_TRUE(solver.equilibrate().converged);
+    for (const double load : {0.5, end}) ASSERT_TRUE(solver.advance(load).converged);
+    const double before = solver.mean_displacement("top")(1);
+    EXPECT_EQ(solver.has_lost_stability_at_end(), end > 1.0) << end;
+    EXPECT_EQ(solver.mean_displacement("top")(1), before);
+  }
 }
 
 TEST(large_deformation, tangent_under_pressure_is_the_derivative_of_the_residual) {
