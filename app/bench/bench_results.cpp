@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace polargrain::app {
 namespace {
@@ -42,9 +43,15 @@ double peak_like(const BenchCurve& curve, double peak) {
   return peak < 0.0 ? *least : *most;
 }
 
-BenchCurve common_part(const BenchCurve& whole, const BenchCurve& reference) {
-  const BenchCurve curve = comparable(whole, reference);
-  const std::vector<double> places = comparable(reference, reference).x;
+namespace {
+
+/// A curve and its reference, made comparable.
+struct CurveAndReference {
+  BenchCurve part;  ///< of the curve within the range of x of the reference, up to the edge itself
+  BenchCurve reference;
+};
+
+BenchCurve part_within(const BenchCurve& curve, const std::vector<double>& places) {
   const auto [first, last] = std::minmax_element(places.begin(), places.end());
   const double way = 1e-9 * (*last - *first);
   const double least = *first - way;
@@ -67,22 +74,32 @@ BenchCurve common_part(const BenchCurve& whole, const BenchCurve& reference) {
   return part;
 }
 
-BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
+CurveAndReference side_by_side(const BenchCurve& curve, const BenchCurve& reference) {
+  BenchCurve along = comparable(reference, reference);
+  return {part_within(comparable(curve, reference), along.x), std::move(along)};
+}
+
+BenchError error_of(const CurveAndReference& both) {
+  const auto& [part, reference] = both;
   BenchError error;
-  const BenchCurve part = common_part(curve, reference);
-  const BenchCurve along = comparable(reference, reference);
   if (part.x.empty()) return error;
   const auto [least, most] = std::minmax_element(reference.y.begin(), reference.y.end());
   const double range = *most - *least;
   BenchCurve expected{part.x, {}};
   for (std::size_t k = 0; k < part.x.size(); ++k) {
-    expected.y.push_back(along.at(part.x[k]));
+    expected.y.push_back(reference.at(part.x[k]));
     error.largest = std::max(error.largest, std::abs(part.y[k] - expected.y[k]) / range);
   }
   const double reference_peak = peak_of(expected);
   if (reference_peak != 0.0)
     error.peak = std::abs(peak_like(part, reference_peak) - reference_peak) / std::abs(reference_peak);
   return error;
+}
+
+}  // namespace
+
+BenchError error_of(const BenchCurve& curve, const BenchCurve& reference) {
+  return error_of(side_by_side(curve, reference));
 }
 
 void compare(std::vector<BenchResult>& results) {
@@ -93,9 +110,9 @@ void compare(std::vector<BenchResult>& results) {
     result.peaks.clear();
     for (std::size_t k = 0; k < result.curves.size(); ++k) {
       if (result.curves[k].x.empty() || reference.curves[k].x.empty()) continue;  // stopped before its start
-      result.errors.push_back(error_of(result.curves[k], reference.curves[k]));
-      result.peaks.push_back(
-          peak_like(common_part(result.curves[k], reference.curves[k]), peak_of(reference.curves[k])));
+      const CurveAndReference both = side_by_side(result.curves[k], reference.curves[k]);
+      result.errors.push_back(error_of(both));
+      result.peaks.push_back(peak_like(both.part, peak_of(both.reference)));
     }
   }
 }

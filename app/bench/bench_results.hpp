@@ -30,9 +30,6 @@ double peak_of(const BenchCurve& curve);
 /// side are compared. @param curve not empty
 double peak_like(const BenchCurve& curve, double peak);
 
-/// The part of a curve, made comparable, within the range of x of a reference, up to the edge itself.
-BenchCurve common_part(const BenchCurve& whole, const BenchCurve& reference);
-
 /// How far a curve is from a reference (comparable): at the curve's own places, as far as both go, and where that ends.
 struct BenchError {
   double largest = 0.0;  ///< of the difference, over the range of the reference
