@@ -78,12 +78,13 @@ void look_at_displacement(const Scene& scene, const fem::Problem<dim>& problem,
 }
 
 /// Couples at the nodes of a foot, beside which its forces have a moment too. On a plate that moves they are meant.
+/// @param held nodes that do not move
 template <int dim>
-void look_at_couples(const Scene& scene, const fem::Problem<dim>& problem, const coupler::Monitor& monitor,
-                     Remarks& remarks) {
-  if (!fem::is_rotation(monitor.dof) || problem.mesh.nodes_on(monitor.on).size() < 2) return;
-  const HeldNodes<dim> held = held_nodes(problem, Movers::left_out);
-  const bool has_forces = std::ranges::any_of(problem.mesh.nodes_on(monitor.on), [&](int node) {
+void look_at_couples(const Scene& scene, const fem::Mesh<dim>& mesh, const HeldNodes<dim>& held,
+                     const coupler::Monitor& monitor, Remarks& remarks) {
+  const std::vector<int> on = mesh.nodes_on(monitor.on);
+  if (!fem::is_rotation(monitor.dof) || on.size() < 2) return;
+  const bool has_forces = std::ranges::any_of(on, [&](int node) {
     return std::ranges::find(held[static_cast<std::size_t>(node)], true) !=
            held[static_cast<std::size_t>(node)].end();
   });
@@ -103,10 +104,11 @@ void look_at_couples(const Scene& scene, const fem::Problem<dim>& problem, const
 
 void monitors(const Scene& scene, Remarks& remarks) {
   scene.the_case().with_problem([&](const auto& problem) {
+    const auto held = held_nodes(problem, Movers::left_out);
     for (const coupler::Monitor& monitor : scene.the_case().monitors) {
       if (monitor.kind == coupler::Monitor::Kind::reaction) {
         look_at_reaction(scene, problem, monitor, remarks);
-        look_at_couples(scene, problem, monitor, remarks);
+        look_at_couples(scene, problem.mesh, held, monitor, remarks);
       }
       if (monitor.kind == coupler::Monitor::Kind::displacement)
         look_at_displacement(scene, problem, monitor, remarks);
