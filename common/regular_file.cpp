@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 namespace polargrain {
@@ -61,6 +62,17 @@ std::string why_not_over(const std::filesystem::path& output,
     return fmt::format("the command reads {}, and would write over it; name another file", name);
   }
   return {};
+}
+
+std::string why_not_own(const std::filesystem::path& file, std::string_view beginning,
+                        std::string_view what) {
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(file, error);  // a device takes what comes
+  if (!is_file || std::filesystem::file_size(file, error) == 0) return {};
+  std::string found(beginning.size(), ' ');
+  std::ifstream(file, std::ios::binary).read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (found == beginning) return {};
+  return fmt::format("this file is there and is no {}", what);
 }
 
 }  // namespace polargrain

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace polargrain {
@@ -18,5 +19,9 @@ std::string why_no_output(const std::filesystem::path& file);
 /// names and links lead to it. Another file gives an empty text. @param inputs may name files that do not exist
 std::string why_not_over(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
+
+/// Why a command must not write a file, in words that follow its name: something else is there than the command writes. Empty
+/// where nothing is, or a device. @param beginning of all that it writes there @param what that is: "page of polargrain"
+std::string why_not_own(const std::filesystem::path& file, std::string_view beginning, std::string_view what);
 
 }  // namespace polargrain

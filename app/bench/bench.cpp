@@ -10,6 +10,7 @@
 
 #include "app/bench/bench_band.hpp"
 #include "app/bench/bench_page.hpp"
+#include "app/page/page.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/monitor_notes.hpp"
 #include "app/run/progress.hpp"
@@ -17,6 +18,7 @@
 #include "app/run/run.hpp"
 #include "common/csv_table.hpp"
 #include "common/error.hpp"
+#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "coupler/case/case.hpp"
@@ -113,6 +115,17 @@ BenchResult take(const BenchSetting& setting, const std::filesystem::path& direc
   return result;
 }
 
+/// The files of the folder have usual names, which those of others may have too. @throws InputError
+void check_folder(const BenchOptions& options) {
+  const std::string remedy = "name another folder with -o, or remove it";
+  const std::filesystem::path table = options.directory / "bench.csv";
+  const std::filesystem::path page = options.directory / "bench.html";
+  if (const std::string reason = why_not_own(table, "case,what,", "table of bench"); !reason.empty())
+    throw InputError({table.string(), 0, reason + "; " + remedy});
+  if (const std::string reason = why_no_page(page, remedy); !reason.empty())
+    throw InputError({page.string(), 0, reason});
+}
+
 /// The input read before anything runs, so that a typing error costs no hour.
 struct Checked {
   std::string title;
@@ -179,6 +192,7 @@ int bench(const BenchOptions& options, const PackingTools& packing_tools) {
   const std::vector<BenchPacking> packings = bench_packings(options);
   const std::vector<BenchSetting> settings = bench_settings(options, packings);
   const Checked checked = check(options, settings);
+  check_folder(options);
   std::filesystem::create_directories(options.directory);
   make_packings(options, packings, packing_tools);
   Report report(options, checked);

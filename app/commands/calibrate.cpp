@@ -11,6 +11,7 @@
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
 #include "app/commands/pack.hpp"
+#include "app/page/page.hpp"
 #include "common/csv_table.hpp"
 #include "common/packing_file.hpp"
 #include "common/regular_file.hpp"
@@ -186,8 +187,11 @@ std::vector<std::string> cells_of(const Evaluation& evaluation) {
   return cells;
 }
 
+constexpr const char* kBeginningOfRecord = "# calibration ";
+
 std::string heading_of(const Calibration& calibration) {
-  return fmt::format("# calibration {}\n{}", calibration.identity, csv_row(columns_of_record(calibration)));
+  return fmt::format("{}{}\n{}", kBeginningOfRecord, calibration.identity,
+                     csv_row(columns_of_record(calibration)));
 }
 
 /// The evaluations that a record holds. @throws InputError when it is one of another calibration
@@ -195,7 +199,7 @@ std::vector<Evaluation> known_evaluations(const std::filesystem::path& record,
                                           const Calibration& calibration) {
   if (!std::filesystem::exists(record)) return {};
   const CsvTable table(record);
-  if (table.comments().empty() || table.comments().front() != "# calibration " + calibration.identity)
+  if (table.comments().empty() || table.comments().front() != kBeginningOfRecord + calibration.identity)
     throw InputError(
         {record.string(), 1,
          "is the record of another calibration: its table, specification, script or packings were "
@@ -231,12 +235,22 @@ void check_folder(const CalibrateOptions& options) {
   std::vector<std::filesystem::path> inputs =
       files_read_with(coupler::DocumentKind::calibration, options.specification, options.settings);
   inputs.push_back(options.laboratory);
+  const auto refuse = [&](const char* name, const std::string& reason) {
+    if (!reason.empty()) throw InputError({(options.directory / name).string(), 0, reason});
+  };
   for (const char* const name :
        {"record.csv", "parameters.csv", "profile.csv", "best.in", "calibration.html"}) {
     const std::string reason = why_not_over(options.directory / name, inputs);
-    if (!reason.empty())
-      throw InputError({(options.directory / name).string(), 0, reason + ", or another folder with -o"});
+    refuse(name, reason.empty() ? reason : reason + ", or another folder with -o");
   }
+  const std::string remedy = "name another folder with -o, or remove it";
+  for (const auto& [name, beginning] : {std::pair{"record.csv", kBeginningOfRecord},
+                                        {"parameters.csv", "parameter,"},
+                                        {"profile.csv", "held,"}}) {
+    const std::string reason = why_not_own(options.directory / name, beginning, "table of this command");
+    refuse(name, reason.empty() ? reason : reason + "; " + remedy);
+  }
+  refuse("calibration.html", why_no_page(options.directory / "calibration.html", remedy));
 }
 
 /// All faults are found before the first packing is made.

@@ -42,6 +42,10 @@ void check_output(const std::string& option, const std::filesystem::path& output
 void check_page(const std::string& option, const std::filesystem::path& output,
                 const std::vector<std::filesystem::path>& inputs);
 
+/// The same of a table that takes the place of an older one alone, beside a file that was named.
+/// @param beginning of its column names
+void check_table(const std::string& option, const std::filesystem::path& output,
+                 const std::vector<std::filesystem::path>& inputs, const std::string& beginning);
 /// Refuses the places of files of a run (is_of_a_run). @param option as above @throws InputError
 void check_beside_run(const std::string& option, const std::filesystem::path& output,
                       const std::filesystem::path& directory);

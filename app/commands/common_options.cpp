@@ -68,6 +68,14 @@ void check_page(const std::string& option, const std::filesystem::path& output,
   refuse_output(option, output, why_no_page(output));
 }
 
+void check_table(const std::string& option, const std::filesystem::path& output,
+                 const std::vector<std::filesystem::path>& inputs, const std::string& beginning) {
+  check_output(option, output, inputs);
+  const std::string reason = why_not_own(output, beginning, "table of this command");
+  refuse_output(option, output,
+                reason.empty() ? reason : reason + "; name another file to write, or remove this one");
+}
+
 void check_beside_run(const std::string& option, const std::filesystem::path& output,
                       const std::filesystem::path& directory) {
   if (output.empty() || !is_of_a_run(output, directory)) return;

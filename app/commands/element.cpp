@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "app/commands/command.hpp"
 #include "app/commands/csv_file.hpp"
@@ -229,8 +230,9 @@ int run_test(const ElementOptions& options, const PackingTools& tools) {
   read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
   std::vector<std::filesystem::path> inputs = coupler::files_named_in(document, directory);
   inputs.emplace_back(document.file);
-  for (const char* const ending : {".csv", "_mean.csv", "_envelope.csv"})
-    check_output("-o", with_ending(options.output, ending), inputs);
+  for (const auto& [ending, beginning] :
+       {std::pair{".csv", "packing,"}, {"_mean.csv", "n,"}, {"_envelope.csv", "packing,state,"}})
+    check_table("-o", with_ending(options.output, ending), inputs, beginning);
   check_page("-o", with_ending(options.output, ".html"), inputs);
   const std::vector<ElementSpecification> specifications = read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {

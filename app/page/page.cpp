@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
 #include "app/page/assets.hpp"
 #include "common/plain_text.hpp"
+#include "common/regular_file.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -146,15 +146,9 @@ std::string page(const std::string& title, const std::string& body, int refresh_
       mesh_script(), kHeadOfPage);
 }
 
-std::string why_no_page(const std::filesystem::path& file) {
-  std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(file, error);  // a device takes what comes
-  if (!is_file || std::filesystem::file_size(file, error) == 0) return {};
-  std::string beginning(kHeadOfPage.size(), ' ');
-  std::ifstream(file, std::ios::binary)
-      .read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  if (beginning == kHeadOfPage) return {};
-  return "this file is there and is no page of polargrain; name another file to write, or remove this one";
+std::string why_no_page(const std::filesystem::path& file, const std::string& remedy) {
+  const std::string reason = why_not_own(file, kHeadOfPage, "page of polargrain");
+  return reason.empty() ? reason : reason + "; " + remedy;
 }
 
 }  // namespace polargrain::app

@@ -83,6 +83,7 @@ std::string page(const std::string& title, const std::string& body, int refresh_
 
 /// Why no page may be written into a file, in words that follow its name: it holds something else than a page of this program.
 /// Empty where a page may stand, also where nothing is yet.
-std::string why_no_page(const std::filesystem::path& file);
+std::string why_no_page(const std::filesystem::path& file,
+                        const std::string& remedy = "name another file to write, or remove this one");
 
 }  // namespace polargrain::app

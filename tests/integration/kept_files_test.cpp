@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <utility>
 
 #include "tests/integration/command.hpp"
 
@@ -118,6 +119,59 @@ TEST_F(KeptFiles, APageTakesThePlaceOfPagesAlone) {
 TEST_F(KeptFiles, TestsAreNotWrittenOverTheirPackings) {
   expect_refused("element --test biaxial --pressure 100kPa grains.csv cell.in -o grains",
                  "-o grains.csv: the command reads this file");
+}
+
+/// The remedy where a command writes files of usual names into a folder.
+const std::string kOtherFolder = "; name another folder with -o, or remove it";
+
+TEST_F(KeptFiles, TablesOfTestsTakeThePlaceOfSuchTablesAlone) {
+  const std::string packing = POLARGRAIN_SOURCE_DIRECTORY "/cases/biaxial/packing400.csv";
+  const std::string test =
+      "element --test biaxial --pressure 100kPa --set axial_strain=0.1% --set rows=2 --quiet " + packing +
+      " cell.in -o notes";
+  for (const std::string name : {"notes.csv", "notes_mean.csv", "notes_envelope.csv"}) {
+    write(at(name), "day,reading\n1,2\n");
+    expect_refused(
+        test,
+        "-o " + name + ": this file is there and is no table of this command; name another file to write");
+    std::filesystem::remove(at(name));
+  }
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(polargrain(test).status, 0) << "an older table is replaced";
+}
+
+TEST_F(KeptFiles, ABenchTakesThePlaceOfAnOlderOneAlone) {
+  std::string text = content(at("case.yaml"));
+  write(at("case.yaml"),
+        text + "monitors: {top: {on: top, displacement: u2}, force: {on: bottom, reaction: u2}}\n");
+  for (const auto& [name, what] :
+       {std::pair{"bench.html", "page of polargrain"}, {"bench.csv", "table of bench"}}) {
+    std::filesystem::create_directories(at("out"));
+    write(at(std::string("out/") + name), "my notes\n");
+    expect_refused("bench case.yaml --quick --x top --y force -o out",
+                   "out/" + std::string(name) + ": this file is there and is no " + what + kOtherFolder);
+    std::filesystem::remove_all(at("out"));
+  }
+}
+
+TEST_F(KeptFiles, ACalibrationTakesThePlaceOfAnOlderOneAlone) {
+  write(at("soft.in"), "variable stiffness index 1e8\nyoung ${stiffness}\n");
+  write(at("lab.csv"), "axial_strain,s22_Pa\n0,-100e3\n0.01,-900e3\n");
+  write(
+      at("spec.yaml"),
+      "packing: grains.csv\nscript: soft.in\nparameters:\n  stiffness: {bounds: [5e7, 5e8], start: 9e7}\ntests:\n"
+      "  one: {test: biaxial, pressure: 100 kPa, axial_strain: 1 %, rows: 5}\n"
+      "targets:\n  - {column: s22_Pa, error: 500}\n");
+  std::filesystem::create_directories(at("fit"));
+  for (const auto& [name, what] : {std::pair{"calibration.html", "page of polargrain"},
+                                   {"parameters.csv", "table of this command"},
+                                   {"profile.csv", "table of this command"},
+                                   {"record.csv", "table of this command"}}) {
+    write(at(std::string("fit/") + name), "my notes\n");
+    expect_refused("calibrate lab.csv spec.yaml -o fit",
+                   "fit/" + std::string(name) + ": this file is there and is no " + what + kOtherFolder);
+    std::filesystem::remove(at(std::string("fit/") + name));
+  }
 }
 
 TEST_F(KeptFiles, ACalibrationIsNotWrittenOverItsScript) {
