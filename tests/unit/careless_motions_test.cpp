@@ -195,6 +195,32 @@ TEST(QuietBoundary, BesideAShakenBaseIsTold) {
   }
 }
 
+/// Ground on a shelf of rock above the middle of its height; its top, which is as high, may well be shaken.
+TEST(QuietBoundary, BesideAHighBaseIsTold) {
+  const std::string shelf = R"(title: Ground on a shelf of rock
+continuum: cauchy
+mesh:
+  rectangle:
+    {size: [20 m, 10 m], elements: [20, 10], regions: {void: [0, 0, 8 m, 6 m]}, lines: {shelf: [0, 6 m, 8 m, 6 m]}}
+materials:
+  soil: {model: elastic, E: 40 MPa, nu: 0.3, density: 2000 kg/m3}
+regions: {rest: soil}
+boundary:
+  - {on: [bottom, shelf], fix: [u2], move: {u1: [[0, 0], [0.1, 1 mm], [0.2, 0]]}}
+  - {on: left, fix: [u2], quiet: true}
+  - {on: right, fix: [u2]}
+steps: {method: explicit, time: real, duration: 1 s, count: 200, mass_damping: 3}
+monitors:
+  top: {on: top, displacement: u1}
+output: {every: 50, table: [top]}
+)";
+  const app::Remarks remarks = remarks_on_text(shelf);
+  EXPECT_TRUE(is_told_of_features(remarks, "'left' is quiet beside 'shelf', which moves", Rank::wrong))
+      << app::text_of(remarks, true);
+  const app::Remarks above = remarks_on_text(replaced(shelf, "on: [bottom, shelf]", "on: top"));
+  EXPECT_FALSE(says(above, "is quiet beside")) << app::text_of(above, true);
+}
+
 /// A quiet boundary is let go once the start is balanced, and a movement given to it then would be dropped. A support is no
 /// movement.
 TEST(QuietBoundary, ThatIsMovedIsAFault) {

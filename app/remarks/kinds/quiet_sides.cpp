@@ -7,6 +7,7 @@
 
 #include "app/remarks/base_motions.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/outline.hpp"
 #include "fem/solver/loads.hpp"
 
 namespace polargrain::app {
@@ -30,13 +31,27 @@ bool lies_low(const Scene& scene, const fem::Mesh<dim>& mesh, const std::vector<
       nodes, [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](dim - 1) < middle; });
 }
 
+/// Whether the ground stands on a boundary, as on a shelf of rock that may lie high.
+template <int dim>
+bool carries_ground(const fem::Mesh<dim>& mesh, const std::string& boundary) {
+  constexpr double kFacesDown = 0.5;  // of its size, seen from above: walls that lean are steeper
+  double size = 0.0;
+  double down = 0.0;
+  for (const OutlineSide<dim>& side : outline_of(mesh)) {
+    if (std::ranges::find(side.names, boundary) == side.names.end()) continue;
+    size += side.size;
+    down -= side.size * side.normal(dim - 1);
+  }
+  return down > kFacesDown * size;
+}
+
 /// Dashpots pull against the ground at rest. At the sides of ground that its base shakes they hold it back.
 template <int dim>
 void look_beside_base(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
     if (fem::is_rotation(item.dof) || !item.value.changes() || is_quiet(problem, item.on)) continue;
     const std::vector<int> base = problem.mesh.nodes_on(item.on);
-    if (!lies_low(scene, problem.mesh, base)) continue;
+    if (!lies_low(scene, problem.mesh, base) && !carries_ground(problem.mesh, item.on)) continue;
     for (const std::string& side : problem.quiet) {
       const std::vector<int> nodes = problem.mesh.nodes_on(side);
       if (std::ranges::none_of(base, [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); }))
