@@ -86,12 +86,8 @@ std::vector<OutlineSide<dim>> outline_of(const fem::Mesh<dim>& mesh) {
 
 template <int dim>
 std::vector<OutlineSide<dim>> sides_of(const fem::Mesh<dim>& mesh, const std::string& boundary) {
+  if (boundary.empty()) return without_names(outline_of(mesh));
   std::vector<OutlineSide<dim>> sides;
-  if (boundary.empty()) {
-    sides = outline_of(mesh);
-    std::erase_if(sides, [](const OutlineSide<dim>& side) { return !side.names.empty(); });
-    return sides;
-  }
   for (const fem::BoundarySide& side : mesh.boundaries.at(boundary)) {
     sides.push_back(side_at(mesh, side));
     sides.back().names = {boundary};

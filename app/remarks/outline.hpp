@@ -32,6 +32,13 @@ OutlineSide<dim> side_at(const fem::Mesh<dim>& mesh, const fem::BoundarySide& si
 template <int dim>
 std::vector<OutlineSide<dim>> outline_of(const fem::Mesh<dim>& mesh);
 
+/// Those that are in no boundary.
+template <int dim>
+std::vector<OutlineSide<dim>> without_names(std::vector<OutlineSide<dim>> sides) {
+  std::erase_if(sides, [](const OutlineSide<dim>& side) { return !side.names.empty(); });
+  return sides;
+}
+
 /// The sides of a boundary, which may lie inside of the body too. Without a name: the sides of the outline that are in no boundary.
 template <int dim>
 std::vector<OutlineSide<dim>> sides_of(const fem::Mesh<dim>& mesh, const std::string& boundary);

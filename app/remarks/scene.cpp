@@ -66,6 +66,16 @@ Scene Scene::in_stage(int stage) const {
   return later;
 }
 
+template <int dim>
+const std::vector<OutlineSide<dim>>& Scene::outline() const {
+  Outline<dim>& kept = std::get<Outline<dim>>(*outlines_);
+  if (!kept) kept = outline_of(problem_of<dim>().mesh);
+  return *kept;
+}
+
+template const std::vector<OutlineSide<2>>& Scene::outline() const;
+template const std::vector<OutlineSide<3>>& Scene::outline() const;
+
 const coupler::Entry* Scene::find(const Path& path) const {
   const coupler::Entry* entry = &document_;
   for (const std::string& key : path) {

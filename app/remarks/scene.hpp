@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "app/remarks/body.hpp"
+#include "app/remarks/outline.hpp"
 #include "app/remarks/packing_at_rest.hpp"
 #include "app/remarks/remark.hpp"
 #include "coupler/case/case.hpp"
@@ -60,6 +63,9 @@ class Scene {
   [[nodiscard]] double strained_side(fem::Dof movement) const;
   [[nodiscard]] const coupler::Entry& document() const { return document_; }
   [[nodiscard]] const Body& body() const { return body_; }
+  /// As outline_of finds it, once for all stages.
+  template <int dim>
+  [[nodiscard]] const std::vector<OutlineSide<dim>>& outline() const;
   /// All, also those that come with a later stage.
   [[nodiscard]] const std::vector<SceneRegion>& regions() const { return regions_; }
   [[nodiscard]] const SceneRegion& region_of(int element) const {
@@ -117,6 +123,10 @@ class Scene {
   std::optional<fem::Problem<3>> space_in_stage_;
   const coupler::Entry& document_;
   Body body_;
+  template <int dim>
+  using Outline = std::optional<std::vector<OutlineSide<dim>>>;
+  std::shared_ptr<std::tuple<Outline<2>, Outline<3>>> outlines_ =
+      std::make_shared<std::tuple<Outline<2>, Outline<3>>>();  ///< nothing before they are asked for
   std::vector<SceneRegion> regions_;
   std::vector<std::size_t> region_of_element_;
 };

@@ -41,10 +41,9 @@ HeldNodes<dim> nodes_with_conditions(const fem::Problem<dim>& problem) {
 template <int dim>
 class Ends {
  public:
-  explicit Ends(const fem::Problem<dim>& problem)
-      : nodes_(nodes_with_conditions(problem)),
-        outline_(outline_of(problem.mesh)),
-        box_(fem::box_around(problem.mesh)) {}
+  /// Both must outlive this object.
+  Ends(const fem::Problem<dim>& problem, const std::vector<OutlineSide<dim>>& outline)
+      : nodes_(nodes_with_conditions(problem)), outline_(outline), box_(fem::box_around(problem.mesh)) {}
 
   [[nodiscard]] const fem::BoxAround<dim>& box() const { return box_; }
 
@@ -70,7 +69,7 @@ class Ends {
 
  private:
   HeldNodes<dim> nodes_;
-  std::vector<OutlineSide<dim>> outline_;
+  const std::vector<OutlineSide<dim>>& outline_;
   fem::BoxAround<dim> box_;
 };
 
@@ -80,7 +79,7 @@ void look_at_sides(const Scene& scene, const fem::Problem<dim>& problem, Remarks
   const bool may_flow = std::ranges::any_of(
       scene.regions(), [&](const SceneRegion& region) { return is_strong(scene, region); });
   if (!has_weight(problem) || !may_flow) return;
-  const Ends<dim> ends(problem);
+  const Ends<dim> ends(problem, scene.outline<dim>());
   const auto sides = ends.box().sides();
   for (int axis = 0; axis < dim - 1; ++axis) {
     const bool lower = ends.is_free(axis, ends.box().least(axis));

@@ -39,9 +39,10 @@ class LoadedSides {
  public:
   using Place = typename Cosserat<dim>::Place;
 
-  explicit LoadedSides(const fem::Problem<dim>& problem) : problem_(problem) {
+  LoadedSides(const fem::Problem<dim>& problem, const std::vector<OutlineSide<dim>>& outline)
+      : problem_(problem) {
     const fem::Mesh<dim>& mesh = problem.mesh;
-    for (const OutlineSide<dim>& side : outline_of(mesh)) outer_.insert(sorted(side.nodes));
+    for (const OutlineSide<dim>& side : outline) outer_.insert(sorted(side.nodes));
     for (const auto& [one, other] : fem::joined_nodes(problem)) {
       if (mesh.nodes[static_cast<std::size_t>(one)] != mesh.nodes[static_cast<std::size_t>(other)]) continue;
       in_interface_.insert(one);
@@ -160,7 +161,8 @@ template <int dim>
 void look_at_boundary(const Scene& scene, const std::string& boundary, const LoadedSides<dim>& all,
                       const HeldNodes<dim>& held, Remarks& remarks) {
   const fem::Problem<dim>& problem = scene.problem_of<dim>();
-  std::vector<OutlineSide<dim>> sides = sides_of(problem.mesh, boundary);
+  std::vector<OutlineSide<dim>> sides =
+      boundary.empty() ? without_names(scene.outline<dim>()) : sides_of(problem.mesh, boundary);
   std::erase_if(sides, [&](const OutlineSide<dim>& side) { return !all.is_outer(side); });
   if (sides.empty() || is_special(problem, boundary, sides)) return;
   const std::optional<Mismatch> m = mismatch_of(scene, all, sides, held);
@@ -197,7 +199,7 @@ void look_at_boundary(const Scene& scene, const std::string& boundary, const Loa
 void loads_at_start(const Scene& scene, Remarks& remarks) {
   scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
     const HeldNodes<dim> held = carried_nodes(problem);
-    const LoadedSides<dim> all(problem);
+    const LoadedSides<dim> all(problem, scene.outline<dim>());
     for (const auto& [name, sides] : problem.mesh.boundaries)
       look_at_boundary(scene, name, all, held, remarks);
     look_at_boundary(scene, "", all, held, remarks);

@@ -92,7 +92,7 @@ template <int dim>
 void look_at_plates(const Scene& scene, const fem::Problem<dim>& problem, Remarks& remarks) {
   std::set<std::string> told;
   const HeldNodes<dim> held = held_nodes(problem);
-  const std::vector<OutlineSide<dim>> outline = outline_of(problem.mesh);
+  const std::vector<OutlineSide<dim>>& outline = scene.outline<dim>();
   for (const fem::PrescribedDof<dim>& item : problem.prescribed) {
     if (fem::is_rotation(item.dof) || item.value.largest_magnitude() == 0.0 ||
         !problem.mesh.boundaries.contains(item.on) || told.contains(item.on))

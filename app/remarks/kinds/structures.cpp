@@ -163,7 +163,7 @@ void look_at_symmetry(const Scene& scene, const fem::Problem<2>& problem, Remark
     if (item.field == fem::kBeamRotation)
       for (const int node : problem.mesh.nodes_on(item.on)) is_turn_given[static_cast<std::size_t>(node)] = 1;
   const HeldNodes<2> held = held_nodes(problem, Movers::left_out);
-  const std::vector<OutlineSide<2>> outline = outline_of(problem.mesh);
+  const std::vector<OutlineSide<2>>& outline = scene.outline<2>();
   for (const auto& contribution : problem.contributions) {
     const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get());
     if (beam == nullptr) continue;
