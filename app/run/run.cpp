@@ -11,6 +11,7 @@
 #include "app/grains/cell_paths.hpp"
 #include "app/run/advice.hpp"
 #include "app/run/interrupt.hpp"
+#include "app/run/missed_pulses.hpp"
 #include "app/run/proof.hpp"
 #include "app/run/quasi_static_record.hpp"
 #include "app/run/result_directory.hpp"
@@ -253,9 +254,19 @@ class Run {
       log_.info("stage '{}'", stage->name);
     begin_stage_of(case_, step_, *solver_);
     doubt_tolerance();
-    if (case_.real_time) return solver_->advance_real_time(target.amount, case_.explicit_options);
+    if (case_.real_time) return take_real_time(target.amount);
     if (target.explicit_steps == 0) return take_balanced_step(target, *solver_);
     return take_explicit(target);
+  }
+
+  fem::StepReport take_real_time(double time) {
+    fem::StepReport report = solver_->advance_real_time(time, case_.explicit_options);
+    if (step_ == 1 && report.explicit_steps > 0) {
+      const std::string missed =
+          missed_pulses(problem(), time / report.explicit_steps, case_.plan.back().amount);
+      if (!missed.empty()) warn(missed);
+    }
+    return report;
   }
 
   /// Once a stage: the tolerance is a share of all loads and reactions, and little may change of them.

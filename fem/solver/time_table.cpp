@@ -71,6 +71,36 @@ double TimeTable::slope(double time) const {
   return 0.0;
 }
 
+double TimeTable::integral(double from, double to) const {
+  double sum = 0.0;
+  Point before{from, at(from)};
+  const auto go_to = [&](const Point& next) {
+    sum += (next.time - before.time) * (before.value + next.value) / 2.0;
+    before = next;
+  };
+  for (const Point& point : points_)
+    if (point.time > from && point.time < to) go_to(point);
+  go_to({to, at(to)});
+  return sum;
+}
+
+double TimeTable::share_missed_by_steps(double step, double end) const {
+  if (!motions_.empty() || !(step > 0.0) || !(end > 0.0)) return 0.0;
+  double missed = 0.0;
+  double last_seen = -1.0;
+  // A step is exact where the values are straight all along.
+  for (const Point& point : points_) {
+    const double begin = step * std::floor(point.time / step);
+    if (begin == last_seen || begin < 0.0 || begin >= end) continue;
+    last_seen = begin;
+    missed += std::abs(step * (at(begin) + at(begin + step)) / 2.0 - integral(begin, begin + step));
+  }
+  if (missed == 0.0) return 0.0;
+  TimeTable magnitudes = *this;
+  for (Point& point : magnitudes.points_) point.value = std::abs(point.value);
+  return missed / magnitudes.integral(0.0, end);
+}
+
 bool TimeTable::changes() const {
   return std::ranges::any_of(points_,
                              [&](const Point& point) { return point.value != points_.front().value; });

@@ -31,6 +31,11 @@ class TimeTable {
   [[nodiscard]] double largest_change(double time) const;
   /// Whether it has more than one value.
   [[nodiscard]] bool changes() const;
+  /// Integral over the time from `from` to `to`; not of_accelerations.
+  [[nodiscard]] double integral(double from, double to) const;
+  /// How far equal steps that take the values at their ends are off the integral up to `end`: the differences of all steps,
+  /// over the integral, all as magnitudes. Large where the values go there and back within a step; 0 for of_accelerations.
+  [[nodiscard]] double share_missed_by_steps(double step, double end) const;
   /// Whether it is of_accelerations.
   [[nodiscard]] bool is_accelerated() const { return !motions_.empty(); }
   /// Whether both have the same values at all times, whatever their points: a value that is reached at time 1 and a table

@@ -243,5 +243,20 @@ TEST_F(DynamicsRun, MistakesAreFaults) {
   expect_in(errors_of(dense, held, real + ", mass_damping: five"), "mass_damping: expected a rate in 1/s");
 }
 
+// The same impulse, within a step and of four steps.
+TEST_F(DynamicsRun, APulseWithinAStepIsTold) {
+  const auto said = [this](const std::string& name, const std::string& pulse) {
+    write_bar(name + ".yaml", "model: elastic, E: 10 MPa, nu: 0.25, density: 2000 kg/m3",
+              "  - {on: left, fix: [u1]}\n  - {on: right, traction: {u1: " + pulse + "}}\n",
+              "method: explicit, time: real, duration: 0.02 s, count: 4");
+    const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " run " + name + ".yaml -w 1 -o " + name);
+    return outcome.out + outcome.errors;
+  };
+  const std::string brief = said("brief", "[[0.00999, 0 kPa], [0.01, 20 kPa], [0.01001, 0 kPa]]");
+  EXPECT_NE(brief.find("a load comes and goes within explicit steps of"), std::string::npos) << brief;
+  EXPECT_EQ(said("long", "[[0.005, 0 kPa], [0.01, 0.04 kPa], [0.015, 0 kPa]]").find("a load"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace polargrain::testing

@@ -457,4 +457,16 @@ TEST(dynamics, goes_on_from_an_archive_to_the_same_bits) {
   }
 }
 
+// Steps of 1 s take the values at their ends. Triangles: half as long as a step, with their peak at its end, they count double;
+// within a step, nothing is seen of them; of ten steps, the three kinks miss 1/8 of a step's change of slope.
+TEST(TimeTables, TellWhatStepsMissOfThem) {
+  EXPECT_NEAR(TimeTable({{4.75, 0.0}, {5.0, 1.0}, {5.25, 0.0}}).share_missed_by_steps(1.0, 9.0), 3.0, 1e-12);
+  EXPECT_NEAR(TimeTable({{4.25, 0.0}, {4.5, 1.0}, {4.75, 0.0}}).share_missed_by_steps(1.0, 9.0), 1.0, 1e-12);
+  EXPECT_NEAR(TimeTable({{0.0, 1.0}, {0.5, 0.0}}).share_missed_by_steps(1.0, 9.0), 1.0, 1e-12);
+  EXPECT_LT(TimeTable({{3.3, 0.0}, {8.3, 1.0}, {13.3, 0.0}}).share_missed_by_steps(1.0, 20.0), 0.03);
+  EXPECT_LT(TimeTable({{0.0, 0.0}, {1e-6, 1.0}}).share_missed_by_steps(1.0, 20.0), 0.03);  // a sudden load
+  EXPECT_EQ(TimeTable::constant(2.0).share_missed_by_steps(1.0, 9.0), 0.0);
+  EXPECT_EQ(TimeTable::ramp(2.0).share_missed_by_steps(1.0, 9.0), 0.0);
+}
+
 }  // namespace

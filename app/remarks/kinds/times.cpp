@@ -10,23 +10,14 @@
 #include <vector>
 
 #include "app/remarks/kinds.hpp"
+#include "fem/solver/tables_of.hpp"
 
 namespace polargrain::app {
 namespace {
 
-/// All tables of a problem.
 std::vector<const fem::TimeTable*> tables_of(const Scene& scene) {
   std::vector<const fem::TimeTable*> tables;
-  scene.with_problem([&](const auto& problem) {
-    for (const auto& item : problem.prescribed) tables.push_back(&item.value);
-    for (const auto& load : problem.boundary_loads) {
-      tables.push_back(&load.pressure);
-      for (const fem::TimeTable& along : load.traction) tables.push_back(&along);
-      for (const fem::TimeTable& about : load.couple_traction) tables.push_back(&about);
-    }
-    for (const auto& load : problem.node_loads) tables.push_back(&load.value);
-    for (const auto& load : problem.body_loads) tables.push_back(&load.factor);
-  });
+  scene.with_problem([&](const auto& problem) { tables = fem::tables_of(problem); });
   return tables;
 }
 
@@ -96,7 +87,8 @@ void missed_turns(const Scene& scene, Remarks& remarks) {
   constexpr double kLost = 0.02;  // of the way
   constexpr double kLostLargely = 0.25;
   const std::vector<coupler::StepTarget>& plan = scene.the_case().plan;
-  if (!scene.end_time() || plan.empty()) return;
+  // In real time it is the explicit steps that see the loads; their run tells (app/run/missed_pulses.hpp).
+  if (!scene.end_time() || plan.empty() || scene.the_case().real_time) return;
   double lost = 0.0;
   for (const fem::TimeTable* const table : tables_of(scene)) {
     const Ways ways = ways_of(*table, plan);
