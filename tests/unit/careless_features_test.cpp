@@ -149,11 +149,33 @@ steps: {count: 4, tolerance: 1e-8}
 monitors: {slip: {interface: slide, value: slip}}
 )";
 
+const std::string kWetJoint = R"(title: Water through a joint between two layers
+continuum: cauchy
+mesh: {rectangle: {size: [1 m, 4 m], elements: [1, 8], lines: {joint: [0, 2 m, 1 m, 2 m]}}}
+materials: {soil: {model: elastic, E: 20 MPa, nu: 0.3}}
+regions: {all: soil}
+water: {unit_weight: 10 kN/m3, level: 4 m, permeability: 1e-6 m/s}
+interfaces: {slide: {on: joint, friction: 30 deg, water: permeable}}
+boundary:
+  - {on: [left, right], fix: [u1]}
+  - {on: bottom, fix: [u1, u2], water_level: [[0, 4 m], [10 d, 7 m]]}
+  - {on: top, drained: true}
+body: [{unit_weight: 20 kN/m3}]
+initial_stress: [{surface: 4 m, unit_weight: 20 kN/m3, K0: 0.5}]
+steps: {duration: 1000 d, count: 4, tolerance: 1e-8}
+monitors: {pressure: {on: joint, water: pressure}}
+)";
+
 INSTANTIATE_TEST_SUITE_P(
     Joints, CarelessFeatures,
-    ::testing::Values(Careless{
-        "OneSideOfAJoint", kJoint, "{interface: slide, value: slip}", "{on: joint, displacement: u2}",
-        "the interface 'slide' parts 'joint', and these are the nodes of one side alone", Rank::doubtful}),
+    ::testing::Values(
+        Careless{
+            "OneSideOfAJoint", kJoint, "{interface: slide, value: slip}", "{on: joint, displacement: u2}",
+            "the interface 'slide' parts 'joint', and these are the nodes of one side alone", Rank::doubtful},
+        Careless{"PorePressureOfOneSideOfAJoint", kWetJoint, "water: permeable}",
+                 "water: leaky, resistance: 1e6 s}",
+                 "the interface 'slide' parts 'joint', and these are the nodes of one side alone",
+                 Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
 const std::string kLayers = R"(title: Two layers at rest, then a load

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Movements of a curve that an interface parts: its name stands for the ground on one side.
+// Movements and pore pressures of a curve that an interface parts: its name stands for the ground on one side.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "app/remarks/kinds.hpp"
 #include "fem/interface/interface.hpp"
+#include "fem/water/water_across.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -31,27 +32,42 @@ const fem::Interface<dim>* parting(const fem::Problem<dim>& problem, const std::
   return nullptr;
 }
 
+/// Whether both sides of an interface have one pore pressure.
+template <int dim>
+bool lets_water_pass(const fem::Problem<dim>& problem, const std::string& interface) {
+  for (const auto& contribution : problem.contributions) {
+    const auto* const across = dynamic_cast<const fem::WaterAcross<dim>*>(contribution.get());
+    if (across != nullptr && across->options().name == interface)
+      return across->options().passage == fem::Passage::permeable;
+  }
+  return true;
+}
+
 }  // namespace
 
 void parted_curves(const Scene& scene, Remarks& remarks) {
   scene.the_case().with_problem([&](const auto& problem) {
     for (const coupler::Monitor& monitor : scene.the_case().monitors) {
-      if (monitor.kind != coupler::Monitor::Kind::displacement || monitor.on.size() != 1 ||
+      const bool of_water = monitor.kind == coupler::Monitor::Kind::water && monitor.value == "pressure";
+      if ((monitor.kind != coupler::Monitor::Kind::displacement && !of_water) || monitor.on.size() != 1 ||
           !problem.mesh.boundaries.contains(monitor.on.front()))
         continue;
       const auto* const interface = parting(problem, monitor.on.front());
       if (interface == nullptr) continue;
       const std::string& name = interface->settings().name;
+      if (of_water && lets_water_pass(problem, name)) continue;
       remarks.push_back(
           {Rank::doubtful, 2.0,
            scene.place({"monitors", monitor.name})
                .fault(fmt::format(
                    "monitor '{}': the interface '{}' parts '{}', and these are the nodes of one side alone",
                    monitor.name, name, monitor.on.front())),
-           fmt::format(
-               "read a place to each side ({{at: [..], displacement: ..}}), a beam by its own name, or the way "
-               "between the sides ({{interface: {}, value: slip}})",
-               name)});
+           of_water
+               ? "read a line beside the interface, on each side"
+               : fmt::format(
+                     "read a place to each side ({{at: [..], displacement: ..}}), a beam by its own name, or the way "
+                     "between the sides ({{interface: {}, value: slip}})",
+                     name)});
     }
   });
 }
