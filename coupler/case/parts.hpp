@@ -86,8 +86,11 @@ struct CaseParts {
   std::optional<WaterOfCase> water = {};
   std::map<std::string, PassageOfInterface> passages = {};  ///< by the name of the interface
 
-  /// Of the loading time: with water it is physical.
-  [[nodiscard]] Dimension time() const { return water ? Dimension::duration : Dimension::number; }
+  /// Of the loading time: with water and in real time it is physical.
+  [[nodiscard]] Dimension time() const {
+    return water || in_real_time ? Dimension::duration : Dimension::number;
+  }
+  bool in_real_time = false;  ///< what `steps` says, before they are read
 
   /// The contributions of an interface, a beam or an anchor, by its name: stages place and remove it.
   struct Structure {
@@ -184,6 +187,8 @@ int dem_steps_of(const Entry& document);
 int ask_every_of(const Entry& document);
 /// Whether steps are balanced by iterations: all, or (`method: automatic`) those that can be.
 bool iterates(const Entry& document);
+/// Whether its steps are those of real time.
+bool is_real_time(const Entry& document);
 /// Reads the keys of `method: explicit` or, with those of iterations, `automatic` and gives each step of the plan its explicit
 /// steps.
 void read_explicit(Section& steps, bool automatic, CaseParts& parts);

@@ -39,6 +39,7 @@ class CaseReader {
     const bool large = top.choice_or("deformation", {"small", "large"}, "small") == "large";
     if (const Entry* entry = top.require("mesh", "a map with the mesh")) read_mesh(*entry, parts_);
     parts_.builds = builds_in_stages(document_);
+    parts_.in_real_time = is_real_time(document_);
     case_.with_problem([&](auto& problem) {
       problem.deformation = large ? fem::Deformation::large : fem::Deformation::small;
     });

@@ -63,12 +63,6 @@ double longest_way(const fem::Problem<dim>& problem, double start, double end) {
   return longest;
 }
 
-bool is_real_time(const Entry& document) {
-  const Entry* const steps = document.find("steps");
-  const Entry* const time = steps == nullptr ? nullptr : steps->find("time");
-  return time != nullptr && time->text == "real";
-}
-
 /// A whole number of explicit steps, before the steps are read; 0 where the case asks for another method.
 int early(const Entry& document, const std::string& key, int least, int otherwise) {
   const Entry* const steps = document.find("steps");
@@ -80,6 +74,12 @@ int early(const Entry& document, const std::string& key, int least, int otherwis
 }
 
 }  // namespace
+
+bool is_real_time(const Entry& document) {
+  const Entry* const steps = document.find("steps");
+  const Entry* const time = steps == nullptr ? nullptr : steps->find("time");
+  return time != nullptr && time->text == "real";
+}
 
 int dem_steps_of(const Entry& document) {
   return early(document, "dem_steps", kLeastDemSteps, kDemSteps);
