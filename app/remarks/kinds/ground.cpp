@@ -12,7 +12,7 @@
 #include "app/remarks/given_stress.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/outline.hpp"
-#include "app/remarks/weight_at_start.hpp"
+#include "app/remarks/weights.hpp"
 #include "fem/water/pore_water.hpp"
 
 namespace polargrain::app {

@@ -7,6 +7,7 @@
 
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/weights.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -15,16 +16,6 @@ constexpr double kOffWeight = 0.3;       ///< of the larger of both
 constexpr double kOffWeightByTimes = 2;  ///< from there on it is another scene
 constexpr double kFewKilopascals = 3e3;  ///< Pa
 constexpr double kFillAtRest = 0.5;      ///< K0
-
-/// Weight of a region at its full value in some stage, N/m^3, downwards positive.
-template <int dim>
-double full_weight_of(const fem::Problem<dim>& problem, const std::string& region) {
-  double weight = 0.0;
-  for (const fem::BodyLoad<dim>& load : problem.body_loads)
-    if (load.region.empty() || load.region == region)
-      weight -= load.factor.largest_magnitude() * load.density(problem.mesh.nodes.front())(dim - 1);
-  return weight;
-}
 
 template <int dim>
 void look_at_placed(const Scene& scene, const fem::Problem<dim>& problem, const SceneRegion& region,
@@ -38,7 +29,7 @@ void look_at_placed(const Scene& scene, const fem::Problem<dim>& problem, const 
           ? Scene::pressure_of(region)
           : scene.quantity({"materials", region.material, "confining"}, coupler::Dimension::pressure)
                 .value_or(0.0);
-  const double weight = full_weight_of(problem, region.name);
+  const double weight = full_weight(problem, region.name);
   if (!(brought > 0.0) || !(weight > 0.0)) return;  // weight_of_parts tells of no weight
   double low = HUGE_VAL;
   double high = -HUGE_VAL;

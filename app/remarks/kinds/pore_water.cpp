@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/weights.hpp"
 #include "fem/solver/loads.hpp"
 #include "fem/water/free_water.hpp"
 #include "fem/water/water_across.hpp"
@@ -174,10 +175,7 @@ class Look {
   void at_submerged_weight() {
     constexpr double kLightest = 14e3;  // N/m^3, of saturated clay; peat has less
     for (const auto& [name, region] : water_.regions()) {
-      double weight = 0.0;
-      for (const fem::BodyLoad<dim>& load : problem_.body_loads)
-        if (load.region.empty() || load.region == name)
-          weight -= load.factor.largest_magnitude() * load.density(problem_.mesh.nodes.front())(dim - 1);
+      const double weight = full_weight(problem_, name);
       const std::vector<int>& elements = problem_.mesh.regions.at(name);
       const bool is_wet = std::ranges::any_of(elements, [&](int e) {
         const auto& nodes = problem_.mesh.elements[static_cast<std::size_t>(e)].nodes;

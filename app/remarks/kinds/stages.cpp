@@ -7,21 +7,17 @@
 
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/weights.hpp"
 
 namespace polargrain::app {
 namespace {
 
 using coupler::Entry;
 
-/// Weight of a region at its full value, N/m^3, downwards positive, in whatever stage.
-double largest_weight_on(const Scene& scene, const SceneRegion& region) {
-  return scene.the_case().with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
-    double weight = 0.0;
-    for (const fem::BodyLoad<dim>& load : problem.body_loads)
-      if (load.region.empty() || load.region == region.name)
-        weight -= load.factor.largest_magnitude() * load.density(problem.mesh.nodes.front())(dim - 1);
-    return weight;
-  });
+/// Weight of a region at its full value, N/m^3, in whatever stage.
+double weight_in_any_stage(const Scene& scene, const SceneRegion& region) {
+  return scene.the_case().with_problem(
+      [&](const auto& problem) { return full_weight(problem, region.name); });
 }
 
 /// Where a case of stages writes down that a region comes.
@@ -105,10 +101,10 @@ bool are_on_one_place(const Entry& one, const Entry& other) {
 void weight_of_parts(const Scene& scene, Remarks& remarks) {
   double largest = 0.0;
   for (const SceneRegion& region : scene.regions())
-    largest = std::max(largest, largest_weight_on(scene, region));
+    largest = std::max(largest, weight_in_any_stage(scene, region));
   if (largest <= 0.0) return;
   for (const SceneRegion& region : scene.regions()) {
-    if (!region.comes_later || largest_weight_on(scene, region) > 0.0) continue;
+    if (!region.comes_later || weight_in_any_stage(scene, region) > 0.0) continue;
     remarks.push_back(
         {Rank::wrong, 3.0,
          place_of(scene, region.name)

@@ -7,7 +7,7 @@
 
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
-#include "app/remarks/weight_at_start.hpp"
+#include "app/remarks/weights.hpp"
 
 namespace polargrain::app {
 namespace {
