@@ -31,6 +31,19 @@ double height_of(const fem::Mesh<dim>& mesh, const std::vector<int>& elements) {
 template double height_of<2>(const fem::Mesh<2>&, const std::vector<int>&);
 template double height_of<3>(const fem::Mesh<3>&, const std::vector<int>&);
 
+std::vector<double> whole_sides(const Scene& scene) {
+  std::vector<double> sides = scene.body().sides;
+  const coupler::Entry* const sector = scene.find({"mesh", "cylinder", "sector"});
+  if (sector == nullptr || sector->text == "whole") return sides;
+  sides[1] *= 2.0;
+  if (sector->text == "quarter") sides[0] *= 2.0;
+  return sides;
+}
+
+double smaller_whole_side(const Scene& scene) {
+  return std::ranges::min(whole_sides(scene));
+}
+
 bool is_strong(const Scene& scene, const SceneRegion& region) {
   return region.cell != nullptr || scene.find({"materials", region.material, "friction_angle"}) != nullptr;
 }

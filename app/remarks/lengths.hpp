@@ -26,6 +26,10 @@ double usual_element(const Scene& scene, const SceneRegion& region);
 template <int dim>
 double height_of(const fem::Mesh<dim>& mesh, const std::vector<int>& elements);
 
+/// The sides of the body, m; of half a cylinder, or a quarter, those of the whole.
+std::vector<double> whole_sides(const Scene& scene);
+double smaller_whole_side(const Scene& scene);
+
 /// Whether a material has a strength, so that bands may form in it.
 bool is_strong(const Scene& scene, const SceneRegion& region);
 

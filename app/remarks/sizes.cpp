@@ -112,11 +112,14 @@ Expectation expectation_of(const Scene& scene) {
 
 std::string sizes_text(const Scene& scene) {
   std::string sides;
-  for (const double side : scene.body().sides) sides += (sides.empty() ? "" : " by ") + metres(side);
+  for (const double side : whole_sides(scene)) sides += (sides.empty() ? "" : " by ") + metres(side);
+  if (const coupler::Entry* const sector = scene.find({"mesh", "cylinder", "sector"});
+      sector != nullptr && sector->text != "whole")
+    sides += fmt::format(" (the mesh is a {} of it)", sector->text);
   std::string text =
       fmt::format("body {}, elements {} on average; largest movement {}, {:.3g} % of the smaller side\n",
                   sides, metres(scene.body().mean_element), metres(scene.largest_movement()),
-                  100.0 * scene.largest_movement() / scene.body().smaller_side());
+                  100.0 * scene.largest_movement() / smaller_whole_side(scene));
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
   if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "app/remarks/sizes.hpp"
+#include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_features.hpp"
 
 namespace polargrain::testing {
@@ -173,6 +175,36 @@ const std::string kQuarter =
     replaced(replaced(kCylinder, "elements: [8, 2, 6]}", "elements: [8, 2, 6], sector: quarter}"),
              "  - {on: bottom_axis, fix: [u1, u2]}\n  - {on: bottom_side_right, fix: [u2]}\n",
              "  - {on: left, fix: [u1]}\n  - {on: front, fix: [u2]}\n");
+
+/// The cut of a sector is no side of the body: a cylinder 100 mm wide may have an lc of 20 mm, a quarter of it 50 mm wide too.
+TEST(Sectors, AreAsWideAsTheirCylinder) {
+  const std::string law =
+      "elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 32 deg, dilatancy_angle: 2 deg, cohesion: 1 kPa";
+  for (const std::string& text : {kCylinder, kQuarter}) {
+    const std::string polar = replaced(text, "continuum: cauchy\n", "");
+    const app::Remarks right =
+        remarks_of({"SectorsRight", polar, law, "elastic, E: 40 MPa, nu: 0.3, Gc: 15 MPa, lc: 20 mm"});
+    EXPECT_TRUE(right.empty()) << app::text_of(right, true);
+    const app::Remarks wide =
+        remarks_of({"SectorsWide", polar, law, "elastic, E: 40 MPa, nu: 0.3, Gc: 15 MPa, lc: 30 mm"});
+    EXPECT_TRUE(is_told_of_features(wide, "lc is 30 mm, 0.3 times the smaller side of the body (100 mm)",
+                                    Rank::doubtful))
+        << app::text_of(wide, true);
+  }
+}
+
+TEST(Sectors, HaveTheSizesOfTheirCylinder) {
+  const Scratch scratch("careless_sector_sizes");
+  const std::filesystem::path file = scratch.path() / "case.yaml";
+  write(file, kQuarter);
+  const coupler::Case the_case = coupler::read_case(file);
+  const coupler::Entry document = coupler::load_document_of(coupler::DocumentKind::problem, file, {});
+  const app::PackingsAtRest no_packings;
+  const std::string sizes = app::sizes_text(app::Scene(the_case, document, no_packings));
+  EXPECT_TRUE(sizes.starts_with("body 100 mm by 100 mm by 200 mm (the mesh is a quarter of it), elements "))
+      << sizes;
+  EXPECT_NE(sizes.find("largest movement 4 mm, 4 % of the smaller side\n"), std::string::npos) << sizes;
+}
 
 /// The stress is told with its cause: loads and the stress at the surface no longer agree.
 TEST(SurfaceInSpace, AboveTheMeshIsTold) {

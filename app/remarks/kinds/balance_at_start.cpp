@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/lengths.hpp"
 #include "app/remarks/start_of_step_zero.hpp"
 
 namespace polargrain::app {
@@ -19,7 +20,7 @@ constexpr double kLargeStress = 0.3;     // of the stress at time zero
 void balance_at_start(const Scene& scene, Remarks& remarks) {
   const std::optional<StartOfStepZero> start = start_of_step_zero(scene);
   if (!start) return;
-  const double moved = start->largest_displacement / scene.body().smaller_side();
+  const double moved = start->largest_displacement / smaller_whole_side(scene);
   if (start->stress_change > kLargeStress && start->has_stress) {
     remarks.push_back(
         {Rank::doubtful, std::max(1.0, start->stress_change / kLargeStress),

@@ -118,14 +118,15 @@ void size_of_grains(const Scene& scene, Remarks& remarks) {
                          place.fault(fmt::format("material '{}': the mean diameter of the grains is {:.3g} m",
                                                  region.material, diameter)),
                          "check the unit of the sizes: without one they are in m"});
-    const double ratio = scene.body().smaller_side() / diameter;
+    const double body = smaller_whole_side(scene);
+    const double ratio = body / diameter;
     if (ratio < kSmallBody)
       remarks.push_back(
           {Rank::doubtful, kSmallBody / ratio,
            place.fault(fmt::format(
                "material '{}': the body is {:.3g} mean diameters wide ({:.3g} mm of {:.3g} mm): too few grains to "
                "be a continuum",
-               region.material, ratio, 1e3 * scene.body().smaller_side(), 1e3 * diameter)),
+               region.material, ratio, 1e3 * body, 1e3 * diameter)),
            "check the units of the mesh and of the grains"});
     else if (const double element = usual_element(scene, region) / diameter; element < kSmallElement)
       remarks.push_back(

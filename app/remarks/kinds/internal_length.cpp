@@ -29,7 +29,7 @@ void against_elements(const Scene& scene, const SceneRegion& region, double leng
 }
 
 void against_body(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
-  const double body = scene.body().smaller_side();
+  const double body = smaller_whole_side(scene);
   const double share = length / body;
   if (share <= kMostLengthOverBody) return;
   remarks.push_back(
@@ -81,7 +81,7 @@ void spread_of_slips(const Scene& scene, Remarks& remarks) {
   const double spread = scene.the_case().spread;
   if (spread <= 0.0) return;
   const coupler::Entry& place = scene.place({"continuum", "spread"});
-  const double body = *std::ranges::max_element(scene.body().sides);  // a column may be one element wide
+  const double body = std::ranges::max(whole_sides(scene));  // a column may be one element wide
   if (spread > kMostSpreadOverBody * body)
     remarks.push_back(
         {spread > body ? Rank::wrong : Rank::doubtful, spread / (kMostSpreadOverBody * body),
@@ -128,7 +128,7 @@ void plastic_length(const Scene& scene, Remarks& remarks) {
     const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
     if (!plastic || !length || *length <= 0.0) continue;
     const double ratio = *plastic / *length;
-    const double body = *plastic / scene.body().smaller_side();
+    const double body = *plastic / smaller_whole_side(scene);
     if (ratio <= kMostPlasticOverLength && ratio >= 1.0 / kMostPlasticOverLength &&
         body <= kMostLengthOverBody)
       continue;
