@@ -174,15 +174,26 @@ class Reader {
     }
   }
 
+  /// The number of an element, which is added unless it is there: files of version 2 have it once for each of its groups.
+  int number_of(int kind, const std::vector<int>& nodes) {
+    std::vector<int> sorted = nodes;
+    std::ranges::sort(sorted);
+    const auto [known, is_new] =
+        element_of_nodes_.try_emplace(std::move(sorted), static_cast<int>(mesh_.elements.size()));
+    if (is_new) {
+      mesh_.elements.push_back(element_of(kind, nodes));
+      turn_round_if_mirrored(known->second);
+    }
+    return known->second;
+  }
+
   void read_elements() {
     std::map<int, std::vector<int>> elements_of_entity;
     const auto add_entity = [&](int entity) {
       if (elements_of_entity.contains(entity)) return;
       std::vector<int>& numbers = elements_of_entity[entity];
       for_each_element(dim, entity, [&](int kind, const std::vector<int>& nodes) {
-        numbers.push_back(static_cast<int>(mesh_.elements.size()));
-        mesh_.elements.push_back(element_of(kind, nodes));
-        turn_round_if_mirrored(numbers.back());
+        numbers.push_back(number_of(kind, nodes));
       });
     };
     for_each_group(dim, [&](const std::string& name, int entity) {
@@ -190,6 +201,10 @@ class Reader {
       std::vector<int>& region = mesh_.regions[name];
       region.insert(region.end(), elements_of_entity[entity].begin(), elements_of_entity[entity].end());
     });
+    for (auto& [name, region] : mesh_.regions) {
+      std::ranges::sort(region);
+      region.erase(std::ranges::unique(region).begin(), region.end());
+    }
     if (mesh_.regions.empty()) {
       for (const GmshContent::Block& block : content_.blocks) {
         if (block.dimension == dim) add_entity(block.entity);
@@ -301,6 +316,7 @@ class Reader {
   GmshContent content_;
   Mesh<dim> mesh_;
   std::map<std::size_t, int> node_of_tag_;
+  std::map<std::vector<int>, int> element_of_nodes_;  ///< by its nodes in rising order
   std::map<std::vector<int>, BoundarySide> side_of_corners_;
 };
 

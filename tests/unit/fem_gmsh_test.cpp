@@ -137,6 +137,21 @@ TEST(gmsh, content_that_does_not_fit_together_is_refused_in_words) {
   expect_refused([](GmshContent& c) { c.nodes[1].position[2] = NAN; }, "z = 0");
 }
 
+/// Two unit squares side by side. Gmsh's version 2 writes an element anew for each group; the copy may begin elsewhere, or run
+/// the other way round.
+TEST(gmsh, an_element_that_is_written_several_times_is_one) {
+  const GmshContent content{
+      {{1, {0, 0, 0}}, {2, {1, 0, 0}}, {3, {1, 1, 0}}, {4, {0, 1, 0}}, {5, {2, 0, 0}}, {6, {2, 1, 0}}},
+      {{2, 1, 3, 4, {1, 2, 3, 4, 2, 5, 6, 3, 3, 4, 1, 2}}, {2, 2, 3, 4, {4, 3, 2, 1}}},
+      {{2, "ground", {1, 2}}, {2, "left", {2}}},
+      ""};
+  const Mesh<2> mesh = mesh_of("a.msh", content);
+  EXPECT_EQ(mesh.elements.size(), 2U);
+  EXPECT_EQ(mesh.regions.at("all"), (std::vector<int>{0, 1}));
+  EXPECT_EQ(mesh.regions.at("ground"), (std::vector<int>{0, 1}));
+  EXPECT_EQ(mesh.regions.at("left"), std::vector<int>{0});
+}
+
 /// A machine without Gmsh must say what is missing, and where it was looked for.
 TEST(GmshModule, that_is_missing_is_named) {
   try {
