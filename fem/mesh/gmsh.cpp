@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -256,6 +257,7 @@ class Reader {
   }
 
   void read_boundaries() {
+    std::set<std::pair<std::string, const BoundarySide*>> listed;  // a load acts once on a side listed twice
     for_each_group(dim - 1, [&](const std::string& name, int entity) {
       std::vector<BoundarySide>& boundary = mesh_.boundaries[name];
       for_each_element(dim - 1, entity, [&](int kind, const std::vector<int>& nodes) {
@@ -266,7 +268,7 @@ class Reader {
         if (side == side_of_corners_.end()) {
           fail(fmt::format("the {} '{}' has a piece that is no side of any element", kOutline<dim>, name));
         }
-        boundary.push_back(side->second);
+        if (listed.emplace(name, &side->second).second) boundary.push_back(side->second);
       });
     });
   }

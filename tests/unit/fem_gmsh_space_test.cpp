@@ -2,6 +2,7 @@
 // Meshes of Gmsh in space: groups, order of nodes, sides, and words about what is not read.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -123,6 +124,24 @@ TEST(GmshBody, ElementsAreThoseOfTheFile) {
   EXPECT_EQ(name_in("two_blocks_hex8.msh", "H8R"), "H8R");
   EXPECT_EQ(name_in("two_blocks_tet10.msh"), "T10");
   EXPECT_EQ(name_in("two_blocks_wedge15.msh"), "W15");
+}
+
+/// The unit cube, from either of two groups, and its base, which begins elsewhere and runs round the other way.
+TEST(GmshBody, WhatIsWrittenTwiceCountsOnce) {
+  GmshContent content;
+  const std::vector<std::array<double, 3>> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (std::size_t k = 0; k < corners.size(); ++k) content.nodes.push_back({k + 1, corners[k]});
+  content.blocks = {{3, 1, 5, 8, {1, 2, 3, 4, 5, 6, 7, 8}},
+                    {3, 2, 5, 8, {2, 3, 4, 1, 6, 7, 8, 5}},
+                    {2, 1, 3, 4, {1, 2, 3, 4, 3, 2, 1, 4}}};
+  content.groups = {{3, "ground", {1}}, {3, "part", {2}}, {2, "base", {1}}};
+  const Mesh<3> mesh = mesh_of<3>("a.msh", content);
+  ASSERT_EQ(mesh.elements.size(), 1U);
+  EXPECT_NEAR(volume_of(mesh, 0), 1.0, 1e-14);
+  EXPECT_EQ(mesh.regions.at("ground"), mesh.regions.at("part"));
+  ASSERT_EQ(mesh.boundaries.at("base").size(), 1U);
+  EXPECT_NEAR(area_of(mesh, mesh.boundaries.at("base").front()).z(), -1.0, 1e-14);
 }
 
 TEST(GmshBody, SaysWhatToWriteForElementsThatAreNotRead) {

@@ -152,6 +152,19 @@ TEST(gmsh, an_element_that_is_written_several_times_is_one) {
   EXPECT_EQ(mesh.regions.at("left"), std::vector<int>{0});
 }
 
+/// In whatever direction, and through two curves of one group; another group has the side too.
+TEST(gmsh, a_side_that_is_listed_twice_in_a_group_counts_once) {
+  const GmshContent content{
+      {{1, {0, 0, 0}}, {2, {1, 0, 0}}, {3, {1, 1, 0}}, {4, {0, 1, 0}}},
+      {{2, 1, 3, 4, {1, 2, 3, 4}}, {1, 1, 1, 2, {1, 2, 1, 2, 2, 1, 2, 3}}, {1, 2, 1, 2, {2, 1}}},
+      {{1, "load", {1, 2}}, {1, "bottom", {2}}},
+      ""};
+  const Mesh<2> mesh = mesh_of("a.msh", content);
+  ASSERT_EQ(mesh.boundaries.at("load").size(), 2U);
+  EXPECT_NE(mesh.boundaries.at("load")[0].side, mesh.boundaries.at("load")[1].side);
+  EXPECT_EQ(mesh.boundaries.at("bottom").size(), 1U);
+}
+
 /// A machine without Gmsh must say what is missing, and where it was looked for.
 TEST(GmshModule, that_is_missing_is_named) {
   try {
