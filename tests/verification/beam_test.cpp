@@ -301,17 +301,23 @@ TEST(beam, shear_of_a_welded_beam_is_in_balance_with_its_load) {
   }
 }
 
-TEST(anchor, holds_its_prestress_and_yields) {
+/// A block of 1 m whose top moves, with a node "middle" in the midst of it.
+Problem<2> block_that_is_drawn(const TimeTable& movement) {
   Problem<2> problem;
   problem.mesh = rectangle({{1.0, 1.0}, {1, 1}});
   problem.materials["all"] = elastic_ground<2>(1e7, 0.0);
-  problem.prescribed = {
-      {"bottom", Dof::u2, kZero, {}},
-      {"bottom_left", Dof::u1, kZero, {}},
-      {"all", Dof::w, kZero, {}},
-      {"top", Dof::u2, TimeTable({{0.0, 0.0}, {1.0, 1e-3}, {2.0, 1e-2}, {3.0, 9e-3}, {4.0, -2e-2}}), {}}};
-  // From the middle of the top, 2 m straight down to a fixed place.
+  problem.prescribed = {{"bottom", Dof::u2, kZero, {}},
+                        {"bottom_left", Dof::u1, kZero, {}},
+                        {"all", Dof::w, kZero, {}},
+                        {"top", Dof::u2, movement, {}}};
   name_nodes(problem.mesh, "middle", [](const auto& x) { return x(1) == 1.0 && x(0) == 0.5; });
+  return problem;
+}
+
+TEST(anchor, holds_its_prestress_and_yields) {
+  Problem<2> problem =
+      block_that_is_drawn(TimeTable({{0.0, 0.0}, {1.0, 1e-3}, {2.0, 1e-2}, {3.0, 9e-3}, {4.0, -2e-2}}));
+  // From the middle of the top, 2 m straight down to a fixed place.
   AnchorSettings<2> settings{"tie", problem.mesh.nodes_on("middle").front(), {}, {0.5, -1.0}, 4e6};
   settings.prestress = 1e3;
   settings.strength = 8e3;
@@ -347,18 +353,8 @@ TEST(anchor, is_a_rope_or_a_strut) {
            PulledRod{"strut", 0.0, HUGE_VAL, 2e3, {5e3, 0.0, -2e3, 6e3, 8e3, 3e3}},
            PulledRod{"rod", 0.0, HUGE_VAL, HUGE_VAL, {5e3, 0.0, -5e3, 3e3, 5e3, 0.0}},
        }) {
-    Problem<2> problem;
-    problem.mesh = rectangle({{1.0, 1.0}, {1, 1}});
-    problem.materials["all"] = elastic_ground<2>(1e7, 0.0);
-    problem.prescribed = {
-        {"bottom", Dof::u2, kZero, {}},
-        {"bottom_left", Dof::u1, kZero, {}},
-        {"all", Dof::w, kZero, {}},
-        {"top",
-         Dof::u2,
-         TimeTable({{0.0, 0.0}, {1.0, 5e-3}, {2.0, 0.0}, {3.0, -5e-3}, {4.0, 3e-3}, {5.0, 5e-3}, {6.0, 0.0}}),
-         {}}};
-    name_nodes(problem.mesh, "middle", [](const auto& x) { return x(1) == 1.0 && x(0) == 0.5; });
+    Problem<2> problem = block_that_is_drawn(
+        TimeTable({{0.0, 0.0}, {1.0, 5e-3}, {2.0, 0.0}, {3.0, -5e-3}, {4.0, 3e-3}, {5.0, 5e-3}, {6.0, 0.0}}));
     AnchorSettings<2> settings{"tie", problem.mesh.nodes_on("middle").front(), {}, {0.5, 0.0}, 1e6};
     settings.prestress = rod.prestress;
     settings.strength = rod.strength;

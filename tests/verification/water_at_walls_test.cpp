@@ -284,32 +284,39 @@ TEST(WaterAtWalls, APitIsDugUnderWaterAndPumpedDry) {
   }
 }
 
+/// A bed of 2 m below 4 m of water, in stages of the sea.
+std::string bed_of_a_sea(const std::string& permeability, const std::string& stages) {
+  return "title: A sea that rises and falls\n"
+         "continuum: cauchy\n"
+         "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 2]}}\n"
+         "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
+         "regions: {all: clay}\n"
+         "water: {permeability: " +
+         permeability +
+         ", level: 4 m, unit_weight: 10 kN/m3}\n"
+         "boundary:\n"
+         "  - {on: [left, right], fix: [u1]}\n"
+         "  - {on: bottom, fix: [u1, u2]}\n"
+         "  - {name: sea, on: top, free_water: 4 m}\n"
+         "body: [{unit_weight: 20 kN/m3}]\n"
+         "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 20 kPa}]\n"
+         "steps:\n"
+         "  tolerance: 1e-8\n"
+         "  stages:\n"
+         "    - {name: rest, until: 1 d, count: 1}\n" +
+         stages + "monitors: {u: {on: top, displacement: u2}, p: {on: top, water: pressure}}\n";
+}
+
+/// A stage that leads the sea to a level.
+std::string sea(const char* name, int until, const char* level) {
+  return fmt::format(
+      "    - {{name: {}, until: {} d, count: 4, boundary: [{{name: sea, on: top, free_water: {} m}}]}}\n",
+      name, until, level);
+}
+
 // Free water on a bed leaves effective stress alone, whatever its level: pressures in pores and load go one way along the stage.
 TEST(WaterAtWalls, ALevelOfAStageMovesNoGround) {
-  const auto sea = [](const char* name, int until, const char* level) {
-    return fmt::format(
-        "    - {{name: {}, until: {} d, count: 4, boundary: [{{name: sea, on: top, free_water: {} m}}]}}\n",
-        name, until, level);
-  };
-  const RunOfLaws run(
-      "title: A sea that rises and falls\n"
-      "continuum: cauchy\n"
-      "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 2]}}\n"
-      "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
-      "regions: {all: clay}\n"
-      "water: {permeability: 1e-2 m/s, level: 4 m, unit_weight: 10 kN/m3}\n"
-      "boundary:\n"
-      "  - {on: [left, right], fix: [u1]}\n"
-      "  - {on: bottom, fix: [u1, u2]}\n"
-      "  - {name: sea, on: top, free_water: 4 m}\n"
-      "body: [{unit_weight: 20 kN/m3}]\n"
-      "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 20 kPa}]\n"
-      "steps:\n"
-      "  tolerance: 1e-8\n"
-      "  stages:\n"
-      "    - {name: rest, until: 1 d, count: 1}\n" +
-      sea("flood", 11, "10") + sea("ebb", 21, "3") +
-      "monitors: {u: {on: top, displacement: u2}, p: {on: top, water: pressure}}\n");
+  const RunOfLaws run(bed_of_a_sea("1e-2 m/s", sea("flood", 11, "10") + sea("ebb", 21, "3")));
   for (std::size_t step = 0; step <= run.steps(); ++step)
     EXPECT_NEAR(run.value("u", step), 0.0, 1e-9)
         << "step " << step << "; 1 kPa more or less moves it by 0.17 mm";
@@ -377,26 +384,7 @@ TEST(WaterAtWalls, ABedIsFloodedAndFallsDry) {
 
 // Stages whose level is below the bed, and above it again: load and pressure go one way along the stage.
 TEST(WaterAtWalls, ALevelOfAStageMayLeaveABedDry) {
-  const RunOfLaws run(
-      "title: A sea that falls below its bed and comes back\n"
-      "continuum: cauchy\n"
-      "mesh: {rectangle: {size: [1 m, 2 m], elements: [1, 2]}}\n"
-      "materials: {clay: {model: elastic, E: 10 MPa, nu: 0.25}}\n"
-      "regions: {all: clay}\n"
-      "water: {permeability: 1e-5 m/s, level: 4 m, unit_weight: 10 kN/m3}\n"
-      "boundary:\n"
-      "  - {on: [left, right], fix: [u1]}\n"
-      "  - {on: bottom, fix: [u1, u2]}\n"
-      "  - {name: sea, on: top, free_water: 4 m}\n"
-      "body: [{unit_weight: 20 kN/m3}]\n"
-      "initial_stress: [{surface: 2 m, unit_weight: 20 kN/m3, K0: 0.5, surcharge: 20 kPa}]\n"
-      "steps:\n"
-      "  tolerance: 1e-8\n"
-      "  stages:\n"
-      "    - {name: rest, until: 1 d, count: 1}\n"
-      "    - {name: ebb, until: 11 d, count: 4, boundary: [{name: sea, on: top, free_water: 1 m}]}\n"
-      "    - {name: flood, until: 21 d, count: 4, boundary: [{name: sea, on: top, free_water: 5 m}]}\n"
-      "monitors: {u: {on: top, displacement: u2}, p: {on: top, water: pressure}}\n");
+  const RunOfLaws run(bed_of_a_sea("1e-5 m/s", sea("ebb", 11, "1") + sea("flood", 21, "5")));
   for (std::size_t step = 0; step <= run.steps(); ++step)
     EXPECT_NEAR(run.value("u", step), 0.0, 1e-6) << "step " << step << "; 1 kPa moves it by 0.17 mm";
   EXPECT_NEAR(run.value("p", 3), 10e3, 10.0) << "half way from 2 m of water to nothing";

@@ -108,10 +108,9 @@ TEST(water_large, tangents_are_those_of_differences) {
   EXPECT_LT(error_of_tangent<3>(2.0), 1e-8);
 }
 
-// A column that loses a fifth of its height: all that leaves made room, at any time; at the end the skeleton bears all.
+/// All sides but the top slide along themselves.
 template <int dim>
-void consolidate() {
-  Problem<dim> problem = wet_block<dim>(block<dim>(), 0.0, 1e-6);
+void stand_on_rollers(Problem<dim>& problem) {
   const TimeTable zero = TimeTable::constant(0.0);
   problem.prescribed = {{"left", Dof::u1, zero, {}}, {"right", Dof::u1, zero, {}}};
   if constexpr (dim == 2) problem.prescribed.push_back({"bottom", Dof::u2, zero, {}});
@@ -119,8 +118,15 @@ void consolidate() {
     for (const auto& [side, dof] :
          {std::pair{"front", Dof::u2}, std::pair{"back", Dof::u2}, std::pair{"bottom", Dof::u3}})
       problem.prescribed.push_back({side, dof, zero, {}});
+}
+
+// A column that loses a fifth of its height: all that leaves made room, at any time; at the end the skeleton bears all.
+template <int dim>
+void consolidate() {
+  Problem<dim> problem = wet_block<dim>(block<dim>(), 0.0, 1e-6);
+  stand_on_rollers(problem);
   problem.boundary_loads.push_back({"top", TimeTable({{0.0, 0.0}, {1.0, 250e3}})});
-  problem.prescribed_fields = {{kPorePressure, "top", zero}};
+  problem.prescribed_fields = {{kPorePressure, "top", TimeTable::constant(0.0)}};
   SolverOptions options;
   options.force_tolerance = 1e-10;
   Solver<dim> solver(std::move(problem), options);
@@ -172,15 +178,9 @@ WeightOnABase settle_under_water(bool is_total) {
   water.unit_weight = kWater;
   if (is_total) water.table = kHeight;
   add_pore_water<dim>(problem, {{"all", {Permeability::constant(1e-6), 0.7, 2.2e9}}}, water);
-  const TimeTable zero = TimeTable::constant(0.0);
-  problem.prescribed = {{"left", Dof::u1, zero, {}}, {"right", Dof::u1, zero, {}}};
-  if constexpr (dim == 2) problem.prescribed.push_back({"bottom", Dof::u2, zero, {}});
-  if constexpr (dim == 3)
-    for (const auto& [side, dof] :
-         {std::pair{"front", Dof::u2}, std::pair{"back", Dof::u2}, std::pair{"bottom", Dof::u3}})
-      problem.prescribed.push_back({side, dof, zero, {}});
+  stand_on_rollers(problem);
   problem.boundary_loads.push_back({"top", TimeTable({{0.0, 0.0}, {1.0, 100e3}})});
-  problem.prescribed_fields = {{kPorePressure, "top", zero}};
+  problem.prescribed_fields = {{kPorePressure, "top", TimeTable::constant(0.0)}};
   const double weight = is_total ? kSaturated : kSaturated - kWater;
   Ground ground{kHeight, weight, 1.0 / 3.0, 0.0, {}, kWater};
   if (is_total) ground.water_level = kHeight;
