@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "fem/solver/stages.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -348,7 +349,10 @@ std::string element_text(const NewCase& what) {
 }
 
 std::string mesh_text(const NewCase& what, const fem::Mesh<2>& mesh, const std::string& file) {
-  if (mesh.boundaries.empty())
+  std::vector<std::string> names;
+  for (const auto& [name, edges] : mesh.boundaries)
+    if (fem::covered_sides(mesh, edges, {}).empty()) names.push_back(name);  // others lie inside of the body
+  if (names.empty())
     throw InputError(
         {file, 0,
          "the mesh names no boundary, so that no support or load can be given: in the script for Gmsh "
@@ -359,8 +363,6 @@ std::string mesh_text(const NewCase& what, const fem::Mesh<2>& mesh, const std::
     least = least.cwiseMin(node);
     largest = largest.cwiseMax(node);
   }
-  std::vector<std::string> names;
-  for (const auto& [name, edges] : mesh.boundaries) names.push_back(name);
   std::ranges::stable_sort(names, {}, [&](const std::string& name) { return mean_height(mesh, name); });
   const std::string pressure = pascals(what.pressure);
   std::string loads = fmt::format("  - {{on: {}, fix: [u1, u2]}}\n", yaml_name(names.front()));

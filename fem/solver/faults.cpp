@@ -214,6 +214,25 @@ void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, int 
   }
 }
 
+/// A pressure that begins with a stage pushes against an outward normal, which a side between two elements has not. Ground that
+/// covers the side later takes the load away.
+template <int dim>
+void check_pressures(const Problem<dim>& problem, int stage, Messages& messages) {
+  for (const BoundaryLoad<dim>& load : problem.boundary_loads) {
+    if (load.life.begin != stage || load.pressure.largest_magnitude() == 0.0 ||
+        !problem.mesh.boundaries.contains(load.on))
+      continue;
+    const std::vector<BoundarySide> covered =
+        covered_sides(problem.mesh, sides_in_stage(problem, load, stage), elements_in_stage(problem, stage));
+    if (covered.empty()) continue;
+    const std::vector<int> nodes = problem.mesh.side_nodes(covered.front());
+    messages.push_back(fmt::format(
+        "the pressure on '{}' has ground on both sides at {}, and none that it acts from; let it begin in the "
+        "stage that removes one side, or give 'traction', which has a direction",
+        load.on, place_text<dim>(problem.mesh.nodes[static_cast<std::size_t>(nodes.front())])));
+  }
+}
+
 /// The faults that a later stage of construction has of its own.
 template <int dim>
 void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
@@ -230,6 +249,7 @@ void check_stage(const Problem<dim>& problem, int stage, Messages& messages) {
         "there, or neither; let it begin with the stage that removes or places one side",
         load.on));
   }
+  check_pressures(problem, stage, messages);
   for (const std::string& motion : free_rigid_motions(problem, stage)) {
     messages.push_back(fmt::format(
         "the supports of this stage leave a rigid motion of what is there free: {}; give a support that holds it",
@@ -357,6 +377,7 @@ Messages faults(const Problem<dim>& problem) {
   if (!messages.empty() && has_stages) return messages;  // names that a stage needs are missing
   const GivenValues<dim> given = check_prescribed_once(problem, 0, messages);
   check_ties(problem, given, 0, messages);
+  check_pressures(problem, 0, messages);
   check_equal_dofs(problem, given, messages);
   const bool has_fields = check_fields(problem, messages);
   if (has_fields) check_prescribed_fields(problem, 0, messages);

@@ -216,6 +216,24 @@ TEST(NewCommand, AMeshOfOnesOwnIsHeldAtItsLowestBoundary) {
   EXPECT_TRUE(has(text, "model: adaptive ")) << text;
 }
 
+// A pressure on it would push one side at random.
+TEST(NewCommand, AMeshWithACurveInsideIsLoadedOnItsOutlineAlone) {
+  const Scratch scratch("new_mesh_inside");
+  write(scratch.path() / "two.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+        "$PhysicalNames\n4\n1 1 \"base\"\n1 2 \"seam\"\n1 3 \"top\"\n2 4 \"ground\"\n$EndPhysicalNames\n"
+        "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 1 2 0\n6 0 2 0\n$EndNodes\n"
+        "$Elements\n5\n1 1 2 1 1 1 2\n2 1 2 2 2 4 3\n3 1 2 3 3 6 5\n4 3 2 4 1 1 2 3 4\n5 3 2 4 1 4 3 5 6\n"
+        "$EndElements\n");
+  const Outcome written =
+      run_in(scratch.path(), kProgram + " new mesh --mesh two.msh -o own --grains 50 --no-pack");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const std::string text = content(scratch.path() / "own/case.yaml");
+  EXPECT_TRUE(has(text, "boundaries (physical curves):  base, seam, top\n")) << text;
+  EXPECT_TRUE(has(text, "  - {on: top, pressure: ")) << text;
+  EXPECT_FALSE(has(text, "on: seam")) << text;
+}
+
 TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
   const Scratch scratch("new_refused");
   std::filesystem::create_directories(scratch.path() / "full");

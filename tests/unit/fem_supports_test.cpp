@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/problem.hpp"
@@ -217,6 +219,33 @@ TEST(faults, lists_everything_that_is_wrong_at_once) {
     EXPECT_TRUE(found) << part;
   }
   EXPECT_EQ(messages.size(), expected.size());
+}
+
+/// Two elements beside each other, with a pressure on the face between them.
+template <int dim>
+void expect_no_pressure_inside_of(const Mesh<dim>& mesh) {
+  Problem<dim> problem;
+  problem.mesh = mesh;
+  const auto is_between = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](0) == 1.0; };
+  for (int k = 0; k < static_cast<int>(mesh.elements.front().type->sides.size()); ++k)
+    if (std::ranges::all_of(mesh.side_nodes({0, k}), is_between))
+      problem.mesh.boundaries["middle"] = {BoundarySide{0, k}};
+  problem.materials["all"] = nullptr;
+  for (int i = 0; i < dim; ++i) problem.prescribed.push_back({"bottom", static_cast<Dof>(i), kZero, {}});
+  problem.boundary_loads = {{.on = "middle", .pressure = TimeTable::constant(1e3)}};
+  ASSERT_EQ(faults(problem).size(), 1U);
+  EXPECT_TRUE(faults(problem)[0].starts_with("the pressure on 'middle' has ground on both sides at (1, "))
+      << faults(problem)[0];
+  problem.boundary_loads.front().on = "right";
+  EXPECT_EQ(faults(problem), Strings{});
+  problem.boundary_loads.front().on = "middle";
+  add_interface(problem, "middle", glue(1e9, 1e9));  // parts it: the boundary is that of one side
+  EXPECT_EQ(faults(problem), Strings{});
+}
+
+TEST(faults, tells_of_a_pressure_between_two_elements) {
+  expect_no_pressure_inside_of<2>(rectangle({{2.0, 1.0}, {2, 1}}));
+  expect_no_pressure_inside_of<3>(box({{2.0, 1.0, 1.0}, {2, 1, 1}}));
 }
 
 TEST(faults, a_corner_may_be_given_the_same_value_twice) {

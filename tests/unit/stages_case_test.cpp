@@ -115,6 +115,16 @@ TEST_F(StagesCase, finds_a_load_on_a_boundary_that_is_not_there_yet) {
       << found;
 }
 
+TEST_F(StagesCase, finds_a_pressure_on_ground_that_is_yet_to_be_dug) {
+  const std::string floor = "  - {on: bottom, fix: [u2]}\n  - {on: floor, ";
+  const std::string found = fault("  - {on: bottom, fix: [u2]}\n", floor + "pressure: 20 kPa}\n");
+  EXPECT_EQ(found.substr(0, 67), "13: boundary: the pressure on 'floor' has ground on both sides at (")
+      << found;
+  EXPECT_NE(found.find("let it begin in the stage that removes one side, or give 'traction'"),
+            std::string::npos);
+  EXPECT_EQ(fault("  - {on: bottom, fix: [u2]}\n", floor + "traction: {u2: -20 kPa}}\n"), "no fault");
+}
+
 TEST_F(StagesCase, finds_a_line_that_ends_between_corners) {
   const std::string end = "; let it end at corners";
   EXPECT_EQ(fault("wall: [4 m, 6 m,", "wall: [4 m, 6.5 m,"),

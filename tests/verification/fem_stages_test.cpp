@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <iostream>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/memory_archive.hpp"
@@ -461,7 +462,8 @@ TEST(stage, that_changes_ground_elsewhere_leaves_a_load_inside_of_the_body) {
                             {"right", Dof::u1, kZeroOfStages},
                             {"bottom", Dof::u2, kZeroOfStages}};
       problem.body_loads = {gravity(kWeightOfStages)};
-      problem.boundary_loads = {{.on = "slab", .pressure = TimeTable::constant(100e3)}};
+      problem.boundary_loads = {{.on = "slab"}};
+      problem.boundary_loads.front().traction[1] = TimeTable::constant(-100e3);
       problem.boundary_loads.front().life.begin = load_begins;
       EXPECT_EQ(faults(problem), std::vector<std::string>{});
       Solver<2> solver(std::move(problem), tight());
@@ -499,10 +501,51 @@ TEST(stage, that_loads_a_curve_inside_of_the_body_is_a_fault) {
   Solver<2> without(std::move(dry), tight());
   go_through(without, 1);
   EXPECT_NEAR(solver.reaction("bottom")(1) - without.reaction("bottom")(1), 4 * 50e3, 1e-4);
+  // Before the pit is dug, and where nothing is dug at all, ground lies on both sides of the floor.
+  const auto is_told = [&](const std::string& stage) {
+    const std::vector<std::string> found = faults(problem);
+    return found.size() == 1 &&
+           found.front().starts_with(
+               stage +
+               "the pressure on 'floor' has ground on both sides at (1, -5), and none that it acts from");
+  };
   problem.boundary_loads.front().life = {0, INT_MAX};
+  EXPECT_TRUE(is_told(""));
   problem.lifetimes.clear();
+  EXPECT_TRUE(is_told(""));
   problem.boundary_loads.front().life.begin = 1;
-  EXPECT_TRUE(faults(problem).empty());  // a curve between elements that never go: as without stages
+  EXPECT_TRUE(is_told("stage 'dig layer 0': "));
+  // A traction has a direction.
+  problem.boundary_loads.front().traction[1] =
+      std::exchange(problem.boundary_loads.front().pressure, kZeroOfStages);
+  EXPECT_EQ(faults(problem), std::vector<std::string>{});
+}
+
+/// Of a bank with a line at its middle one half is dug; a pressure on that line begins then.
+TEST(stage, that_digs_either_side_of_a_curve_lets_its_pressure_push_what_is_left) {
+  std::vector<double> pushed;
+  for (const double from : {0.0, 2.0}) {
+    Problem<2> problem;
+    problem.continuum = Continuum::cauchy;
+    problem.mesh = rectangle({{4.0, 2.0}, {4, 2}});
+    cut_out(problem.mesh, "pit", {from, 0}, {from + 2, 2});
+    for (const int e : problem.mesh.regions.at("all"))  // as the elements at the left see it
+      if (problem.mesh.element_positions(e).col(0).maxCoeff() == 2.0)
+        problem.mesh.boundaries["face"].push_back({e, 1});
+    problem.materials = {{"pit", elastic()}, {"rest", elastic()}};
+    problem.stages = {"before", "dig"};
+    problem.lifetimes["pit"] = {0, 1};
+    problem.prescribed = {{"bottom", Dof::u1, kZeroOfStages}, {"bottom", Dof::u2, kZeroOfStages}};
+    problem.boundary_loads = {{.on = "face", .pressure = TimeTable::constant(20e3)}};
+    EXPECT_EQ(faults(problem).size(), 1U);
+    problem.boundary_loads.front().life.begin = 1;
+    ASSERT_EQ(faults(problem), std::vector<std::string>{});
+    Solver<2> solver(std::move(problem), tight());
+    go_through(solver, 1);
+    pushed.push_back(-solver.reaction("bottom")(0));
+  }
+  EXPECT_NEAR(pushed[0] / (2 * 20e3), 1.0, 1e-10);  // what is left at the right
+  EXPECT_NEAR(pushed[1] / (2 * 20e3), -1.0, 1e-10);
 }
 
 }  // namespace
