@@ -18,7 +18,7 @@ _NAMES = [f"s{ij}" for ij in _NINE] + [f"m{ij}" for ij in _NINE]
 
 
 class Answer:
-    """The answer of a cell to an increment.
+    """The answer of a cell to an increment. Its arrays cannot be written to; take a copy to change one.
 
     stress        -- Pa, tension positive, first index the normal of the face; shape (2, 2) of discs, (3, 3) of spheres
     couple_stress -- N/m, first index the normal of the face, second the axis of the moment; of discs (m13, m23), shape
@@ -45,6 +45,8 @@ class Answer:
             self.stress = self.stress[:2, :2]
             self.couple_stress = self.couple_stress[:2, 2]
             self.tangent = self.tangent[np.ix_(_PLANE, _PLANE)]
+        for values in (self.stress, self.couple_stress, self.tangent):
+            values.flags.writeable = False  # several who ask may hold the one answer of a packing at rest
         self.state = reply.state
         self.quality = reply.quality
         self.message = reply.message

@@ -122,6 +122,9 @@ class States(InFolder):
         np.testing.assert_array_equal(self.cell.step(shear(1e-3)).vector, self.next)
         self.cell.reset()
         self.assertEqual(self.cell.state, self.cell.at_rest.state)
+        for values in (self.cell.at_rest.stress, self.cell.at_rest.couple_stress, self.cell.at_rest.tangent):
+            with self.assertRaises(ValueError):
+                values *= -1e-3
 
     def test_are_kept_in_files(self):
         self.state.save(self.folder / "state")
