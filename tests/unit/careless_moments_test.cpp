@@ -77,6 +77,22 @@ steps: {count: 1, tolerance: 1e-8}
 monitors: {moment: {beam: sheet, value: moment}}
 )";
 
+const std::string kMat = R"(title: A geotextile in half an embankment
+continuum: cauchy
+mesh: {rectangle: {size: [8 m, 4 m], elements: [8, 4], lines: {textile: [0, 2 m, 8 m, 2 m], crown: [0, 4 m, 3 m, 4 m]}}}
+materials: {soil: {model: elastic, E: 5 MPa, nu: 0.3}}
+regions: {all: soil}
+beams: {mat: {on: textile, EA: 200 MN/m, EI: 0.2 MNm2/m}}
+interfaces: {skin: {on: textile, friction: 30 deg}}
+boundary:
+  - {on: left, fix: [u1]}
+  - {on: bottom, fix: [u1, u2]}
+  - {on: mat_left, fix: [u1, w]}
+  - {on: crown, pressure: [[0, 0], [1, 60 kPa]]}
+steps: {count: 4, tolerance: 1e-5}
+monitors: {axial: {beam: mat, value: axial}}
+)";
+
 const std::string kFoot = R"(title: The moment at the foot of a wall
 mesh: {rectangle: {size: [0.5 m, 4 m], elements: [2, 16]}}
 materials: {bar: {model: elastic, E: 30 GPa, nu: 0.2, Gc: 6 GPa, lc: 50 mm}}
@@ -124,6 +140,18 @@ INSTANTIATE_TEST_SUITE_P(
                  "fix: [u1, w]}", "fix: [u1]}", "beams: 'plate' ends at (0, 8)", Rank::doubtful},
         Careless{"AHingeBesideAClamp", replaced(kHalfRaft, "MNm2/m}", "MNm2/m, clamped: [plate_left]}"),
                  ", clamped: [plate_left]}", "}", "on a side where u1 is fixed, and may turn there",
+                 Rank::doubtful},
+        Careless{
+            "AnEndThatSlidesThroughASide", kMat, "fix: [u1, w]}", "fix: [w]}",
+            "beams: 'mat' ends at (0, 2), on a side where u1 is fixed, but its own node is free there: it slides "
+            "through the side",
+            Rank::doubtful},
+        Careless{"AnEndThatSlidesAndTurns", kMat, "  - {on: mat_left, fix: [u1, w]}\n", "",
+                 "it slides through the side, and may turn: at a plane of symmetry that is a gap and a hinge",
+                 Rank::doubtful},
+        Careless{"AWallThatSlidesThroughItsBase", kWallInGround, "sheet_bottom, fix: [u1, u2]}",
+                 "sheet_bottom, fix: [u1]}",
+                 "beams: 'sheet' ends at (0, 0), on a side where u2 is fixed, but its own node is free there",
                  Rank::doubtful},
         Careless{
             "AForceOnTheGroundBesideAWall", kWallInGround, "{on: sheet_top, node_force",

@@ -129,14 +129,17 @@ void look_at_beam(const Scene& scene, const std::string& name, Remarks& remarks)
        "check the units: EA in MN/m, EI in MNm2/m, both of a metre of thickness"});
 }
 
-/// The axis normal to a side that its supports make a plane of symmetry: fixed along its normal, free along itself; -1 of others.
-int axis_of_symmetry(const OutlineSide<2>& side, const HeldNodes<2>& held) {
-  const std::size_t axis = std::abs(side.normal(0)) > std::abs(side.normal(1)) ? 0 : 1;
-  const auto all_held = [&](std::size_t i) {
-    return std::ranges::all_of(side.nodes, [&](int node) { return held[static_cast<std::size_t>(node)][i]; });
-  };
-  const bool is_level = std::abs(side.normal(static_cast<Eigen::Index>(axis))) > 1.0 - 1e-9;
-  return is_level && all_held(axis) && !all_held(1 - axis) ? static_cast<int>(axis) : -1;
+bool is_held_along(const OutlineSide<2>& side, const HeldNodes<2>& held, int axis) {
+  return std::ranges::all_of(side.nodes, [&](int node) {
+    return held[static_cast<std::size_t>(node)][static_cast<std::size_t>(axis)];
+  });
+}
+
+/// The axis normal to a side whose supports hold it along its normal; -1 of others.
+int held_axis(const OutlineSide<2>& side, const HeldNodes<2>& held) {
+  const int axis = std::abs(side.normal(0)) > std::abs(side.normal(1)) ? 0 : 1;
+  const bool is_level = std::abs(side.normal(axis)) > 1.0 - 1e-9;
+  return is_level && is_held_along(side, held, axis) ? axis : -1;
 }
 
 /// Ends of a beam, and the node behind each, an element away.
@@ -155,42 +158,54 @@ std::vector<std::pair<int, int>> ends_of(const fem::Beam& beam) {
   return ends;
 }
 
-/// A beam that meets a plane of symmetry and may turn there is a hinge in the whole.
-void look_at_symmetry(const Scene& scene, const fem::Problem<2>& problem, Remarks& remarks) {
+/// A beam that meets a held side has nodes of its own where an interface parts it from the ground: free along the normal it slides
+/// through the side. At a plane of symmetry, a side that is free along itself, one that may turn is a hinge in the whole.
+void look_at_ends(const Scene& scene, const fem::Problem<2>& problem, Remarks& remarks) {
   const auto place_of = [&](int node) { return problem.mesh.nodes[static_cast<std::size_t>(node)]; };
   std::vector<char> is_turn_given(problem.mesh.nodes.size(), 0);
   for (const fem::PrescribedField<2>& item : problem.prescribed_fields)
     if (item.field == fem::kBeamRotation)
       for (const int node : problem.mesh.nodes_on(item.on)) is_turn_given[static_cast<std::size_t>(node)] = 1;
   const HeldNodes<2> held = held_nodes(problem, Movers::left_out);
+  const HeldNodes<2> given = held_nodes(problem);
   const std::vector<OutlineSide<2>>& outline = scene.outline<2>();
   for (const auto& contribution : problem.contributions) {
     const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get());
     if (beam == nullptr) continue;
     const std::string& name = beam->short_name();
     for (const auto& [end, behind] : ends_of(*beam)) {
-      if (is_turn_given[static_cast<std::size_t>(end)] != 0) continue;
       const Eigen::Vector2d way = (place_of(end) - place_of(behind)).normalized();
       const auto meets = [&](const OutlineSide<2>& side) {
-        return std::abs(way.dot(side.normal)) > 0.5 && axis_of_symmetry(side, held) >= 0 &&
+        return std::abs(way.dot(side.normal)) > 0.5 && held_axis(side, held) >= 0 &&
                std::ranges::any_of(side.nodes, [&](int node) { return place_of(node) == place_of(end); });
       };
       const auto side = std::ranges::find_if(outline, meets);
       if (side == outline.end()) continue;
+      const int axis = held_axis(*side, held);
+      const bool is_symmetry = !is_held_along(*side, held, 1 - axis);
+      const bool turns = is_symmetry && is_turn_given[static_cast<std::size_t>(end)] == 0;
+      const bool slides = !given[static_cast<std::size_t>(end)][static_cast<std::size_t>(axis)];
+      if (!turns && !slides) continue;
       std::string on = name;
       for (const char* const suffix : {"_top", "_bottom", "_left", "_right"})
         if (problem.mesh.has_nodes_on(name + suffix) &&
             problem.mesh.nodes_on(name + suffix) == std::vector<int>{end})
           on = name + suffix;
-      const std::string fixed = axis_of_symmetry(*side, held) == 0 ? "u1" : "u2";
+      const char* const fixed = axis == 0 ? "u1" : "u2";
+      const char* const found =
+          !slides ? "and may turn there: at a plane of symmetry that is a hinge"
+          : turns
+              ? "but its own node is free there: it slides through the side, and may turn: at a plane of symmetry that "
+                "is a gap and a hinge"
+              : "but its own node is free there: it slides through the side";
       remarks.push_back(
-          {Rank::doubtful, 2.0,
+          {Rank::doubtful, slides ? 4.0 : 2.0,
            scene.place({"beams", name})
-               .fault(fmt::format(
-                   "beams: '{}' ends at {}, on a side where {} is fixed, and may turn there: at a plane of symmetry "
-                   "that is a hinge",
-                   name, fem::place_text<2>(place_of(end)), fixed)),
-           fmt::format("at a plane of symmetry give {{on: {}, fix: [{}, w]}} below 'boundary'", on, fixed)});
+               .fault(fmt::format("beams: '{}' ends at {}, on a side where {} is fixed, {}", name,
+                                  fem::place_text<2>(place_of(end)), fixed, found)),
+           is_symmetry ? fmt::format("at a plane of symmetry give {{on: {}, fix: [{}, w]}} below 'boundary'",
+                                     on, fixed)
+                       : fmt::format("give {{on: {}, fix: [{}]}} below 'boundary'", on, fixed)});
     }
   }
 }
@@ -266,7 +281,7 @@ void look_at_structures(const Scene& scene, const fem::Mesh<dim>& mesh, Remarks&
 void structures(const Scene& scene, Remarks& remarks) {
   scene.with_problem([&](const auto& problem) { look_at_structures(scene, problem.mesh, remarks); });
   // With the supports of all stages: one of a later stage may hold it.
-  if (scene.dimension() == 2) look_at_symmetry(scene, scene.the_case().problem, remarks);
+  if (scene.dimension() == 2) look_at_ends(scene, scene.the_case().problem, remarks);
 }
 
 }  // namespace polargrain::app
