@@ -83,17 +83,25 @@ void Beam::begin_stage(const StageBegin<2>& now) {
 }
 
 std::string Beam::evaluate(const NodalStep& step, NodalForces& forces) {
+  constexpr double kRounding = 1e-6;  // NodalForces::parts: strains are small differences of displacements
   if (!active_) return {};
   for (Part& part : parts_) {
     Eigen::VectorXd values = step.end(part.entries);
-    if (part.born.size() > 0) values -= part.born;
+    Eigen::VectorXd sizes = step.start(part.entries).cwiseAbs() + step.increment(part.entries).cwiseAbs();
+    if (part.born.size() > 0) {
+      values -= part.born;
+      sizes += part.born.cwiseAbs();
+    }
     part.forces.setZero();
+    Eigen::VectorXd larger = Eigen::VectorXd::Zero(sizes.size());
     for (Point& point : part.points) {
       point.answer = respond(section_, point.plastic_curvature, point.strain_of * values);
       part.forces += point.length * (point.strain_of.transpose() * point.answer.forces);
+      const Eigen::MatrixXd strains = point.strain_of.cwiseAbs();
+      larger += point.length * (strains.transpose() * (point.answer.tangent.cwiseAbs() * (strains * sizes)));
     }
     forces.internal(part.entries) += part.forces;
-    forces.parts(part.entries) += part.forces.cwiseAbs();
+    forces.parts(part.entries) += part.forces.cwiseAbs().cwiseMax(kRounding * larger);
   }
   return {};
 }

@@ -118,6 +118,27 @@ TEST(StructureStages, FiveCutsAreOneCut) {
   }
 }
 
+// Placed where the ground has sunk by 18 mm, then drawn without bending: EA strain, and moments that are rounding alone.
+TEST(StructureStages, APlateInMovedGroundTakesPureTension) {
+  const Case the_case = read(
+      "title: a plate in ground that has moved\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [4 m, 1 m], elements: [8, 2], lines: {mid: [0, 0.5 m, 4 m, 0.5 m]}}}\n"
+      "materials: {soil: {model: elastic, E: 20 MPa, nu: 0}}\n"
+      "regions: {all: soil}\n"
+      "beams: {plate: {on: mid, EA: 200 MN/m, EI: 2 MNm2/m}}\n"
+      "boundary:\n"
+      "  - {on: left, fix: [u1, u2]}\n"
+      "  - {on: plate_left, fix: [w]}\n"
+      "  - {on: right, move: {u1: [[0, 0], [1, 0], [2, 1 mm]]}}\n"
+      "  - {on: right, traction: {u1: 0, u2: [[0, 0], [1, -5 kPa]]}}\n"
+      "steps: {stages: [{name: load, until: 1, count: 1}, {name: more, place: plate, until: 2, count: 1}]}\n");
+  const auto solver = run(the_case);
+  EXPECT_LT(solver->mean_displacement("right")(1), -0.018);
+  EXPECT_NEAR(value(*solver, "plate", "axial"), 200e6 * 1e-3 / 4.0, 1e-3);
+  EXPECT_NEAR(value(*solver, "plate", "moment"), 0.0, 1e-3);
+}
+
 // A wall that a stage cuts into ground at rest carries the stress that was there, and nothing moves.
 TEST(StructureStages, GroundAtRestStaysAtRestWhenAWallIsPlaced) {
   const Case the_case =
