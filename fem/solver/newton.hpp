@@ -225,6 +225,7 @@ class Newton {
   Eigen::VectorXd internal_before_;  ///< nodal forces of the committed state
   Eigen::VectorXd loads_before_;
   Eigen::VectorXd withheld_;     ///< forces out of balance at the start; empty when all are in balance
+  Eigen::VectorXd left_behind_;  ///< of these, by the tolerance of the stage before; empty: nothing
   double released_ = 1.0;        ///< share of them that committed steps have let go
   Eigen::VectorXd jump_;         ///< forces out of balance behind the jump that was passed last
   double jump_let_go_ = 1.0;     ///< share of them that committed steps have let go

@@ -27,6 +27,9 @@ void Newton<dim>::enter_stage() {
 template <int dim>
 void Newton<dim>::begin_stage(int stage) {
   const std::vector<char> there_before = elements_in_stage(problem, state.stage);
+  left_behind_ = constraints.folded(unbalanced());
+  for (std::size_t entry = 0; entry < static_cast<std::size_t>(left_behind_.size()); ++entry)
+    if (!constraints.is_free(entry)) left_behind_(static_cast<Eigen::Index>(entry)) = 0.0;
   state.offsets = Constraints<dim>::new_offsets(problem, state, stage);
   begin_contributions(stage, false);
   state.stage = stage;
@@ -61,7 +64,8 @@ double Newton<dim>::forces_to_change() const {
   double sum = loads.largest_change(state.time);
   for (Eigen::Index entry = 0; entry < std::min(withheld_.size(), constraints.places().mechanics()); ++entry)
     if (constraints.is_free(static_cast<std::size_t>(entry)) && !is_rotation(dof_at<dim>(entry)))
-      sum += (1.0 - released_) * std::abs(withheld_(entry));
+      sum += (1.0 - released_) *
+             std::abs(withheld_(entry) - (left_behind_.size() > 0 ? left_behind_(entry) : 0.0));
   return sum;
 }
 

@@ -251,8 +251,9 @@ void Solver<dim>::begin_stage(int stage) {
 
 template <int dim>
 double Solver<dim>::tolerated_share_of_change() const {
+  constexpr double kNothing = 1e-9;  // of all forces: rounding, and no tolerance would be met that sees it
   const double change = implementation_->forces_to_change();
-  if (!(change > 0.0)) return 0.0;
+  if (!(change > kNothing * state().reference_force)) return 0.0;
   return implementation_->options.force_tolerance * state().reference_force / change;
 }
 

@@ -230,7 +230,8 @@ class Solver {
   /// @throws RunError where a region of the problem is missing there, or a material cannot take its states over
   StartReport start_from(ArchiveReader& end, const std::vector<std::string>& regions_of_end);
   /// The largest unbalanced force that the tolerance lets pass, over the sum of the nodal forces that the steps to come let
-  /// go or change; zero where that is not known: movements are given.
+  /// go or change; zero where that is not known, as movements are given,
+  /// and where nothing changes.
   [[nodiscard]] double tolerated_share_of_change() const;
   /// From now on results show displacements and micro-rotations less those of this moment. Nothing else changes.
   void reset_displacements();

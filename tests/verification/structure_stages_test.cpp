@@ -139,6 +139,35 @@ TEST(StructureStages, APlateInMovedGroundTakesPureTension) {
   EXPECT_NEAR(value(*solver, "plate", "moment"), 0.0, 1e-3);
 }
 
+// What the tolerance has left in the cut is nothing that the slab changes, and a slab that comes free of forces changes nothing.
+TEST(StructureStages, OnlyWhatAStageChangesIsHeldAgainstTheTolerance) {
+  const Case the_case = read(
+      "title: a slab below a cut\n"
+      "continuum: cauchy\n"
+      "mesh: {rectangle: {size: [24 m, 9 m], elements: [24, 9], regions: {pit: [0, 6 m, 6 m, 9 m]}, "
+      "lines: {low: [10 m, 6 m, 20 m, 6 m]}}}\n"
+      "materials:\n"
+      "  soil: {model: elastoplastic, E: 40 MPa, nu: 0.3, friction_angle: 20 deg, dilatancy_angle: 0 deg, "
+      "cohesion: 20 kPa}\n"
+      "regions: {pit: soil, rest: soil}\n"
+      "beams: {slab: {on: low, EA: 100 MN/m, EI: 1 MNm2/m}}\n"
+      "boundary: [{on: [left, right], fix: [u1]}, {on: bottom, fix: [u1, u2]}]\n"
+      "body: [{unit_weight: 18 kN/m3}]\n"
+      "initial_stress: [{surface: 9 m, unit_weight: 18 kN/m3, K0: 0.6}]\n"
+      "steps: {tolerance: 1e-4, stages: [{name: cut, remove: pit, count: 5}, {name: slab, place: slab, count: 1}]}\n");
+  fem::Solver<2> solver(the_case.problem, the_case.solver);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  for (int step = 1; step <= the_case.steps(); ++step) {
+    const CaseStage& stage = *the_case.stage_of(step);
+    if (stage.first_step == step) {
+      if (stage.number != solver.state().stage) solver.begin_stage(stage.number);
+      const double share = solver.tolerated_share_of_change();
+      EXPECT_NEAR(share, stage.name == "cut" ? 3e-3 : 0.0, 1e-4) << stage.name;
+    }
+    take(the_case, step, solver);
+  }
+}
+
 // A wall that a stage cuts into ground at rest carries the stress that was there, and nothing moves.
 TEST(StructureStages, GroundAtRestStaysAtRestWhenAWallIsPlaced) {
   const Case the_case =
