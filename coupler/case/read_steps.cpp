@@ -118,6 +118,8 @@ void read_steps(const Entry& entry, CaseParts& parts) {
       steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
   for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})
     steps.require_below(key, 1.0, "the unbalanced forces may not be as large as the loads");
+  for (const char* const key : {"tolerance", "moment_tolerance"})
+    steps.require_at_least(key, 1e-13, "a smaller one cannot be reached, as numbers carry 16 digits");
   solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
   // Grains rearrange: without passing their jumps no band is followed far.
   solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);

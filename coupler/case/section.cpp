@@ -409,6 +409,14 @@ void Section::require_below(const std::string& key, double bound, const std::str
   fault(key, fmt::format("{}: must be below {:g}, found '{}': {}", key, bound, entry->text, why));
 }
 
+void Section::require_at_least(const std::string& key, double bound, const std::string& why) {
+  const Entry* const entry = entry_.find(key);
+  if (entry == nullptr) return;
+  const std::optional<double> value = parse_quantity(entry->text, Dimension::number);
+  if (!value || *value <= 0.0 || *value >= bound) return;  // others are faults already
+  fault(key, fmt::format("{}: must be at least {:g}, found '{}': {}", key, bound, entry->text, why));
+}
+
 void Section::fault_beyond(const std::string& key, double bound, const std::string& why) {
   if (const Entry* const entry = entry_.find(key); entry != nullptr)
     fault(key, fmt::format("{}: must be at most {:g}, found '{}': {}", key, bound, entry->text, why));

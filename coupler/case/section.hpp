@@ -64,6 +64,8 @@ class Section {
   /// Faults where a value that must stay below a bound does not. @param why the meaning of values beyond it
   void require_below(const std::string& key, double bound, const std::string& why);
 
+  /// A fault when the number that the key gives, if it gives one, is positive and below a bound that it may reach.
+  void require_at_least(const std::string& key, double bound, const std::string& why);
   /// The fault of a value beyond a bound that it may reach.
   void fault_beyond(const std::string& key, double bound, const std::string& why);
 

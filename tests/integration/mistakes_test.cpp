@@ -127,6 +127,8 @@ std::vector<Mistake> mistakes() {
        "unbalanced_force_ratio: must be below 1, found '5': any state at all would count as at rest"},
       {"Tolerance", "tolerance: 1e-2", "tolerance: 10",
        "tolerance: must be below 1, found '10': the unbalanced forces may not be as large as the loads"},
+      {"ToleranceOfRounding", "tolerance: 1e-2", "tolerance: 1e-15",
+       "tolerance: must be at least 1e-13, found '1e-15': a smaller one cannot be reached, as numbers carry 16 digits"},
       {"JumpResidual", "tolerance: 1e-2", "tolerance: 1e-2, jump_residual: 200 %",
        "jump_residual: must be below 1, found '200 %': the unbalanced forces may not be as large as the loads"},
       {"ToleranceInPerCent", "model: cell, script: cell.in",
