@@ -330,7 +330,9 @@ class StructuresReader {
 
   void add_rotations(const Curve& curve, const std::vector<std::vector<int>>& faces) {
     if (problem_.fields.empty() || problem_.fields.front().name != fem::kBeamRotation)
-      problem_.fields.insert(problem_.fields.begin(), fem::NodalField{fem::kBeamRotation, "rad", {}});
+      problem_.fields.insert(
+          problem_.fields.begin(),
+          fem::NodalField{.name = fem::kBeamRotation, .unit = "rad", .nodes = {}, .is_motion = true});
     std::vector<int>& nodes = problem_.fields.front().nodes;
     double low[2] = {HUGE_VAL, HUGE_VAL};
     double high[2] = {-HUGE_VAL, -HUGE_VAL};

@@ -131,8 +131,8 @@ class Contribution {
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }
   /// Whether its forces may stand in steps that are not balanced (Solver::advance_explicit).
   [[nodiscard]] virtual bool takes_explicit_steps() const { return false; }
-  /// Of the committed state, J (in the plane per m of thickness), where it counts as the work of stresses.
-  [[nodiscard]] virtual double stored_energy() const { return 0.0; }
+  /// Work over the step that was evaluated last, J (in the plane per m of thickness), of loads that it brings.
+  [[nodiscard]] virtual double work_from_outside() const { return 0.0; }
   /// Pairs of nodes that it holds together in all directions: parts of a body that hang on each other by it.
   [[nodiscard]] virtual std::vector<std::pair<int, int>> joined_nodes() const { return {}; }
   /// Faults of a problem that the contribution belongs to, one message each; runs nothing.

@@ -53,9 +53,9 @@ Eigen::VectorXd Contributions<dim>::linearised_forces(const Eigen::VectorXd& nod
 }
 
 template <int dim>
-double Contributions<dim>::stored_energy() const {
+double Contributions<dim>::work_from_outside() const {
   double sum = 0.0;
-  for (const auto& contribution : all_) sum += contribution->stored_energy();
+  for (const auto& contribution : all_) sum += contribution->work_from_outside();
   return sum;
 }
 

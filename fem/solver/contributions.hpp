@@ -35,8 +35,8 @@ class Contributions {
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces);
   /// The tangent of the last evaluation times nodal values.
   [[nodiscard]] Eigen::VectorXd linearised_forces(const Eigen::VectorXd& nodal) const;
-  /// The sum of Contribution::stored_energy.
-  [[nodiscard]] double stored_energy() const;
+  /// The sum of Contribution::work_from_outside.
+  [[nodiscard]] double work_from_outside() const;
   /// The least of Contribution::longest_step.
   [[nodiscard]] double longest_step() const;
   void commit();

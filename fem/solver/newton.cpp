@@ -553,19 +553,30 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
       0.5 * (loads_before_ + loads_at(iterate.time, iterate.released, iterate.jump_let_go));
   Eigen::VectorXd internal_mean = 0.5 * (internal_before_ + discretisation.internal_forces(trial_));
   if (!contributions.is_empty()) internal_mean += 0.5 * contributed_.internal;
-  for (Eigen::Index entry = 0; entry < constraints.places().mechanics(); ++entry) {
-    // At given entries the support supplies what the loads do not: together the internal force.
-    const bool free = constraints.is_free(static_cast<std::size_t>(entry));
-    state.external_work += (free ? loads_mean(entry) : internal_mean(entry)) * iterate.displacement(entry);
-  }
+  Eigen::VectorXd contributed_mean;
+  if (!contributions.is_empty()) contributed_mean = 0.5 * (state.contributed + contributed_.internal);
+  const auto add_work = [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index entry = begin; entry < end; ++entry) {
+      // At given entries the support supplies what the loads do not: together the internal force.
+      const bool free = constraints.is_free(static_cast<std::size_t>(entry));
+      state.external_work += (free ? loads_mean(entry) : internal_mean(entry)) * iterate.displacement(entry);
+      if (contributed_mean.size() > 0)
+        state.internal_work += contributed_mean(entry) * iterate.displacement(entry);
+    }
+  };
+  const FieldPlaces<dim>& places = constraints.places();
+  add_work(0, places.mechanics());
+  for (std::size_t k = 0; k < problem.fields.size(); ++k)
+    if (problem.fields[k].is_motion) add_work(places.start(k), places.start(k + 1));
+  const double from_outside = contributions.work_from_outside();
+  state.external_work += from_outside;
+  state.internal_work += from_outside;
   for (std::size_t i = 0; i < trial_.size(); ++i) {
     add_to_strain_and_work(i);
   }
   materials.commit();
   if (!contributions.is_empty()) {
-    const double before = contributions.stored_energy();
     contributions.commit();
-    state.internal_work += contributions.stored_energy() - before;
     state.contributed = contributed_.internal;
   }
   state.responses = trial_;

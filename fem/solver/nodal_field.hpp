@@ -26,6 +26,7 @@ struct NodalField {
   /// Elements of the mesh whose corners carry it. A node is no unknown in a stage without its elements; it keeps its last
   /// value. Empty: every node is one in every stage.
   std::vector<int> elements = {};
+  bool is_motion = false;  ///< of the body, as displacements are: its rows times its values are work
 };
 
 /// Given values of a field, as PrescribedDof gives displacements: table times profile, plus offset. Nodes without an unknown of

@@ -171,7 +171,7 @@ struct SolverState {
   Eigen::VectorXd last_increment;  ///< of the displacements in the last committed substep; empty at first
   double next_step = 0.0;          ///< after a cut: share of a step to try next; 0: as asked for
   double external_work = 0.0;      ///< J per m of thickness, loads and reactions, trapezoidal, since time 0
-  double internal_work = 0.0;      ///< the same from stress and strain
+  double internal_work = 0.0;      ///< the same of stresses and contributions, by the same rule
   // Of explicit steps, in the order of the equations; empty before the first of them.
   Eigen::VectorXd mass;      ///< nodal_masses
   Eigen::VectorXd velocity;  ///< nodal values a step

@@ -229,15 +229,6 @@ void Stabilisation<dim>::commit() {
   for (OfElement& element : elements_) element.committed = element.trial;
 }
 
-template <int dim>
-double Stabilisation<dim>::stored_energy() const {
-  double sum = 0.0;
-  for (const OfElement& element : elements_)
-    sum += element.secant.displacement * element.committed.energy.displacement +
-           element.secant.rotation * element.committed.energy.rotation;
-  return sum;
-}
-
 // Both parts are energies of elastic elements, whatever the material has become: this is a statement on the deformation.
 template <int dim>
 std::string Stabilisation<dim>::doubt(const Solver<dim>& solver) const {

@@ -46,7 +46,6 @@ class Stabilisation final : public Contribution<dim> {
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
   [[nodiscard]] bool takes_explicit_steps() const override { return true; }
-  [[nodiscard]] double stored_energy() const override;
 
  private:
   /// Displacements, and micro-rotations.

@@ -182,8 +182,14 @@ Eigen::VectorXd FreeWater<dim>::forces_on(const Face& face, double level) const 
 template <int dim>
 std::string FreeWater<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   evaluated_level_ = level_.at(step.time);
-  for (const Face& face : faces_)
-    if (face.active) forces.internal(face.entries) -= forces_on(face, evaluated_level_);
+  const double level_before = level_.at(step.start_time);
+  work_ = 0.0;
+  for (const Face& face : faces_) {
+    if (!face.active) continue;
+    const Eigen::VectorXd pressed = forces_on(face, evaluated_level_);
+    forces.internal(face.entries) -= pressed;
+    work_ += 0.5 * (forces_on(face, level_before) + pressed).dot(step.increment(face.entries));
+  }
   return {};
 }
 

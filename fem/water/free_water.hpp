@@ -56,6 +56,7 @@ class FreeWater final : public StatelessContribution<dim> {
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
   void commit() override { committed_level_ = evaluated_level_; }
+  [[nodiscard]] double work_from_outside() const override { return work_; }
   bool add_forces_on_face(const std::vector<int>& nodes, Eigen::VectorXd& forces) const override;
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
   [[nodiscard]] std::vector<std::string> faults_of_stage(const Problem<dim>& problem,
@@ -77,6 +78,7 @@ class FreeWater final : public StatelessContribution<dim> {
   std::vector<Face> faces_;
   double evaluated_level_ = -HUGE_VAL;
   double committed_level_ = -HUGE_VAL;
+  double work_ = 0.0;  ///< over the step evaluated last, trapezoidal
 };
 
 }  // namespace polargrain::fem

@@ -84,6 +84,8 @@ class RunOfLaws {
   void keep(const fem::StepReport& report, const fem::Solver<dim>& solver) {
     ASSERT_TRUE(report.converged) << report.message;
     std::map<std::string, double>& row = rows_.emplace_back();
+    row["external_work"] = solver.state().external_work;
+    row["internal_work"] = solver.state().internal_work;
     for (const coupler::Monitor& monitor : case_.monitors) {
       const auto dof = fem::place_of<dim>(monitor.dof);
       if (monitor.kind == coupler::Monitor::Kind::water)

@@ -115,7 +115,7 @@ OwnBody<dim> add_body(Problem<dim>& problem, const std::string& on, const Interf
 inline std::shared_ptr<Beam> add_beam(Problem<2>& problem, const BeamSection& section,
                                       const std::vector<TwoSidedFace<2>>& faces,
                                       const std::vector<std::vector<int>>& face_nodes) {
-  NodalField rotation{kBeamRotation, "rad", {}};
+  NodalField rotation{.name = kBeamRotation, .unit = "rad", .nodes = {}, .is_motion = true};
   for (const auto& nodes : face_nodes)
     for (const int node : nodes)
       if (std::ranges::find(rotation.nodes, node) == rotation.nodes.end()) rotation.nodes.push_back(node);

@@ -110,6 +110,9 @@ TEST_P(EveryBeam, a_cantilever_is_exact_at_its_nodes) {
   const auto tip = solver.mean_displacement("tip");
   EXPECT_NEAR(tip(1), 5e3 * 27 / (3 * 2e6) + 5e3 * 3 / 1e7, 1e-11);
   EXPECT_NEAR(tip(0), 7e3 * 3 / 1e8, 1e-13);
+  const double work = 0.5 * (5e3 * tip(1) + 7e3 * tip(0));
+  EXPECT_NEAR(solver.state().external_work / work, 1.0, 1e-9);
+  EXPECT_NEAR(solver.state().internal_work / work, 1.0, 1e-9);
   for (const BeamResult& end : beam->results(solver.problem())) {
     // The way along the top of an element runs to the left: N has its sign, V turns with the way, M does not.
     EXPECT_NEAR(std::abs(end.moment), 5e3 * (3.0 - end.place(0)), 1e-5);
@@ -138,6 +141,9 @@ TEST_P(EveryBeam, a_moment_at_its_end_bends_a_cantilever) {
   EXPECT_NEAR(solver.mean_displacement("tip")(1), 5e3 * 9 / (2 * 2e6), 1e-11);
   EXPECT_NEAR(solver.state().displacement(turn), 5e3 * 3 / 2e6, 1e-11);
   for (const BeamResult& end : beam->results(solver.problem())) EXPECT_NEAR(std::abs(end.moment), 5e3, 1e-5);
+  const double work = 0.5 * (5e3 * 5e3 * 3 / 2e6 + 7e3 * 7e3 * 3 / 1e8);
+  EXPECT_NEAR(solver.state().external_work / work, 1.0, 1e-9) << "of the moment too";
+  EXPECT_NEAR(solver.state().internal_work / work, 1.0, 1e-9);
   solver.begin_stage(1);
   ASSERT_TRUE(solver.advance(2.0).converged);
   EXPECT_NEAR(solver.state().displacement(turn), 5e3 * 3 / 2e6, 1e-15) << "given";
@@ -368,6 +374,11 @@ TEST(anchor, is_a_rope_or_a_strut) {
       const StepReport report = solver.advance(static_cast<double>(k + 1));
       ASSERT_TRUE(report.converged) << rod.what << k << report.message;
       EXPECT_NEAR(anchor->force(), rod.forces[k], 1e-8) << rod.what << k;
+      // Of the block 0.5 * 1e7 * 5e-3^2 at first, of the rod half its force more.
+      EXPECT_NEAR(solver.state().internal_work, solver.state().external_work, 125.0 * 1e-9) << rod.what << k;
+      if (k == 0 && rod.what == "rod") {
+        EXPECT_NEAR(solver.state().internal_work, 125.0 + 12.5, 1e-7);
+      }
     }
   }
 }

@@ -276,6 +276,8 @@ TEST(WaterAtWalls, APitIsDugUnderWaterAndPumpedDry) {
   // Water comes in from the right and leaves by the floor: Darcy's order, 2 m over some 10 m.
   EXPECT_LT(run.last("in"), -1e-5);
   EXPECT_NEAR(run.last("in"), -run.last("out"), 1e-4 * std::abs(run.last("out")));
+  // Of ground, its water, the interface and the beam; the free water works from outside.
+  EXPECT_NEAR(run.last("internal_work") / run.last("external_work"), 1.0, 1e-6);
 
   for (const int interrupted : {1, 2, 5}) {
     const RunOfLaws again(pit(dig + pump), interrupted);
