@@ -145,8 +145,7 @@ NewCase new_case(const NewOptions& options, const NewKind& kind) {
   if (options.grains > 0) what.grains = options.grains;
   if (!options.pressure.empty()) {
     what.pressure = positive("--pressure", options.pressure, coupler::Dimension::pressure);
-    constexpr double kLeastPlainPressure = 1e3;  // Pa
-    if (what.pressure < kLeastPlainPressure && coupler::is_plain_number(options.pressure))
+    if (what.pressure < coupler::kLeastPlainPressure && coupler::is_plain_number(options.pressure))
       throw InputError(
           {"", 0,
            fmt::format("new: --pressure {0}: without a unit it is {0} Pa; write '{0}kPa', or '{0}Pa'",

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/remarks/bounds_of_laws.hpp"
 #include "app/remarks/few_grains.hpp"
 #include "common/elementary_functions.hpp"
 #include "coupler/case/quantity.hpp"
@@ -43,19 +44,16 @@ void look_at_packings(const Entry& document, const ElementSpecification& specifi
   }
 }
 
-/// The bounds of strain are those of `check` (kinds/laws.cpp).
 void look_at_stiffness(const Entry& material, double pressure, Remarks& remarks) {
-  constexpr double kMostStrain = 0.05;
-  constexpr double kLeastStrain = 1e-7;
   constexpr double kSoftGround = 1e6;  // Pa
   const auto young = number_of(material, "E", Dimension::pressure);
   if (!young || !(*young > 0.0)) return;
   const Entry& place = *material.find("E");
   const double strain = pressure / *young;
   const std::string remedy = "check the unit of E (soils: 5 to 500 MPa) and of the pressure";
-  if (strain > kMostStrain || strain < kLeastStrain)
+  if (strain > kMostElasticStrain || strain < kLeastElasticStrain)
     remarks.push_back(
-        {Rank::wrong, std::max(strain / kMostStrain, kLeastStrain / strain),
+        {Rank::wrong, std::max(strain / kMostElasticStrain, kLeastElasticStrain / strain),
          place.fault(fmt::format(
              "material: E is {:.4g} kPa, and the pressure is {:.4g} kPa: that alone is an elastic "
              "strain of {:.3g} %",
@@ -183,9 +181,7 @@ void look_at_cone(const Entry& material, const ElementSpecification& specificati
   }
 }
 
-/// The bound is that of `check` (kinds/laws.cpp).
 void look_at_cohesion(const Entry& material, double pressure, Remarks& remarks) {
-  constexpr double kMostCohesion = 10.0;  // of the pressure
   const auto cohesion = number_of(material, "cohesion", Dimension::pressure);
   if (!cohesion || *cohesion <= kMostCohesion * pressure) return;
   remarks.push_back(

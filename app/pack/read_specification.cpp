@@ -169,7 +169,6 @@ void require_dimension(const PackingSpecification& specification, coupler::Fault
 constexpr double kLargestPlainRadius = 0.25;  // m
 constexpr double kLeastDensity = 100.0;       // kg/m^3, as of cork
 constexpr double kMostDensity = 25e3;         // kg/m^3
-constexpr double kLeastPlainPressure = 1e3;   // Pa
 
 /// A plain number that can hardly be meant in SI units. @param unit that was most likely meant
 void doubt_plain_number(const coupler::Entry& entry, const std::string& key, bool doubtful,
@@ -196,7 +195,7 @@ void doubt_sizes(const coupler::Entry& sizes, coupler::Faults& faults) {
 void doubt_pressure(const coupler::Entry& pressure, coupler::Faults& faults) {
   const auto value = coupler::parse_quantity(pressure.text, coupler::Dimension::pressure);
   if (!value || *value <= 0.0) return;
-  doubt_plain_number(pressure, "pressure", *value < kLeastPlainPressure,
+  doubt_plain_number(pressure, "pressure", *value < coupler::kLeastPlainPressure,
                      fmt::format("{:g} Pa, the weight of {:.2g} mm of soil", *value, *value / 18.0), "kPa",
                      faults);
 }

@@ -33,6 +33,8 @@ std::optional<double> parse_quantity(std::string_view text, Dimension dimension)
 
 /// Whether the text ends without a unit. @param text one that parse_quantity takes
 bool is_plain_number(std::string_view text);
+/// Of less without a unit kilopascals are meant most likely, Pa.
+inline constexpr double kLeastPlainPressure = 1e3;
 
 /// The largest magnitude that a quantity of the dimension may have, in SI units: far beyond soil, rock and diamond, so that
 /// nothing larger can be meant.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/remarks/bounds_of_laws.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
 #include "app/remarks/outline.hpp"
@@ -48,8 +49,6 @@ bool is_of_a_structure(const Scene& scene, const SceneRegion& region, double you
 }  // namespace
 
 void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
-  constexpr double kMostStrain = 0.05;
-  constexpr double kLeastStrain = 1e-7;
   const double scale = stress_scale(scene);
   const double strain_of_run = scene.strain_of_run();
   for (const SceneRegion& region : scene.regions()) {
@@ -57,17 +56,17 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
     if (region.cell != nullptr || !young || scale <= 0.0) continue;
     const double strain = scale / *young;
     const coupler::Entry& place = scene.place({"materials", region.material, "E"});
-    if (strain > kMostStrain)
+    if (strain > kMostElasticStrain)
       remarks.push_back(
-          {Rank::wrong, strain / kMostStrain,
+          {Rank::wrong, strain / kMostElasticStrain,
            place.fault(fmt::format(
                "material '{}': E is {:.4g} kPa, and loads, weight and stress at time zero reach {:.4g} kPa: that "
                "alone is an elastic strain of {:.3g} %",
                region.material, 1e-3 * *young, 1e-3 * scale, 100.0 * strain)),
            "check the unit of E (soils: 5 to 500 MPa) and of the loads"});
-    else if (strain < kLeastStrain && !is_of_a_structure(scene, region, *young))
+    else if (strain < kLeastElasticStrain && !is_of_a_structure(scene, region, *young))
       remarks.push_back(
-          {Rank::wrong, kLeastStrain / strain,
+          {Rank::wrong, kLeastElasticStrain / strain,
            place.fault(fmt::format(
                "material '{}': E is {:.4g} GPa, and loads, weight and stress at time zero reach {:.4g} kPa: an elastic "
                "strain of {:.1e}",
@@ -75,7 +74,7 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
            "check the unit of E (soils: 5 to 500 MPa) and of the loads"});
     const auto cohesion = largest_value(scene, region, "cohesion", coupler::Dimension::pressure);
     const double reached = std::max(scale, *young * strain_of_run);
-    if (cohesion && *cohesion > 10.0 * reached)
+    if (cohesion && *cohesion > kMostCohesion * reached)
       remarks.push_back(
           {Rank::doubtful, *cohesion / reached,
            scene.place({"materials", region.material, "cohesion"})
