@@ -56,6 +56,7 @@ void narrow_plates(const Scene& scene, Remarks& remarks);
 void held_sides(const Scene& scene, Remarks& remarks);
 void shape_of_elements(const Scene& scene, Remarks& remarks);
 void open_seams(const Scene& scene, Remarks& remarks);
+void hanging_nodes(const Scene& scene, Remarks& remarks);
 void pore_water(const Scene& scene, Remarks& remarks);
 void drains_dug_away(const Scene& scene, Remarks& remarks);
 void loads_behind_walls(const Scene& scene, Remarks& remarks);

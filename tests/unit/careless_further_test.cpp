@@ -88,9 +88,9 @@ std::string two_squares(bool own) {
       count, nodes, elements);
 }
 
-app::Remarks remarks_on_squares(bool own) {
+app::Remarks remarks_on_mesh(const std::string& mesh) {
   const Scratch scratch("careless_squares");
-  write(scratch.path() / "two.msh", two_squares(own));
+  write(scratch.path() / "two.msh", mesh);
   write(scratch.path() / "case.yaml", R"(title: Two squares on each other
 mesh: {file: two.msh}
 materials:
@@ -105,11 +105,59 @@ steps: {count: 1}
 }
 
 TEST(SeamsOfAMesh, AreToldWhereNothingHoldsThem) {
-  const app::Remarks apart = remarks_on_squares(true);
+  const app::Remarks apart = remarks_on_mesh(two_squares(true));
   EXPECT_TRUE(is_told(apart, "3 pairs of nodes lie at one place each, the first at (0, 1) m", Rank::wrong))
       << app::text_of(apart, true);
-  const app::Remarks joined = remarks_on_squares(false);
+  const app::Remarks joined = remarks_on_mesh(two_squares(false));
   EXPECT_TRUE(joined.empty()) << app::text_of(joined, true);
+}
+
+/// An element 2 m wide beneath two of 1 m: the middles of their lower sides, at x1 = 0.5 and 1.5 m, lie within its upper side.
+TEST(SeamsOfAMesh, AreToldWhereElementsDoNotMeetNodeToNode) {
+  constexpr const char* kOneBelowTwo = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "bottom"
+1 3 "top"
+2 4 "soil"
+$EndPhysicalNames
+$Nodes
+18
+1 0 0 0
+2 2 0 0
+3 2 1 0
+4 0 1 0
+5 1 0 0
+6 2 0.5 0
+7 1 1 0
+8 0 0.5 0
+9 1 2 0
+10 0 2 0
+11 0.5 1 0
+12 1 1.5 0
+13 0.5 2 0
+14 0 1.5 0
+15 2 2 0
+16 1.5 1 0
+17 2 1.5 0
+18 1.5 2 0
+$EndNodes
+$Elements
+6
+1 16 2 4 4 1 2 3 4 5 6 7 8
+2 16 2 4 4 4 7 9 10 11 12 13 14
+3 16 2 4 4 7 3 15 9 16 17 18 12
+4 8 2 1 1 1 2 5
+5 8 2 3 3 10 9 13
+6 8 2 3 3 9 15 18
+$EndElements
+)";
+  const app::Remarks remarks = remarks_on_mesh(kOneBelowTwo);
+  EXPECT_TRUE(is_told(remarks, "elements do not meet node to node at (0.5, 1) m: 2 nodes lie within sides",
+                      Rank::wrong))
+      << app::text_of(remarks, true);
 }
 #endif
 

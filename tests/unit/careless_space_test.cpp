@@ -2,9 +2,12 @@
 // Bodies in space with one thing wrong each, and odd ones that are right.
 #include <fmt/format.h>
 
+#include <climits>
 #include <cmath>
 #include <map>
+#include <set>
 
+#include "app/remarks/kinds.hpp"
 #include "app/remarks/sizes.hpp"
 #include "coupler/case/document_kind.hpp"
 #include "tests/support/careless_features.hpp"
@@ -266,12 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"ShakenSideways", kBlock, "force: [0, 0, -18 kN/m3]", "force: [3 kN/m3, 0, -18 kN/m3]"}),
     [](const auto& info) { return info.param.name; });
 
-/// The block, cut across in the middle: both halves have nodes of their own there.
-TEST(Seams, InSpaceAreTold) {
-  const Scratch scratch("careless_seam");
-  write(scratch.path() / "case.yaml", kBlock);
-  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
-  fem::Mesh<3>& mesh = the_case.space->mesh;
+/// Cuts a block across in its middle, x1 = 2 m, in half: the right half gets nodes of its own. The number of these.
+std::size_t cut_across(fem::Mesh<3>& mesh) {
   std::map<int, int> copies;
   for (fem::Element<3>& element : mesh.elements) {
     const auto is_right = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)].x() > 2.1; };
@@ -284,10 +283,50 @@ TEST(Seams, InSpaceAreTold) {
       node = copy->second;
     }
   }
+  return copies.size();
+}
+
+TEST(Seams, InSpaceAreTold) {
+  const Scratch scratch("careless_seam");
+  write(scratch.path() / "case.yaml", kBlock);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  const std::size_t copies = cut_across(the_case.space->mesh);
   const app::Remarks remarks = app::remarks_on(the_case, std::vector<std::string>{}, {});
   EXPECT_TRUE(is_told_of_features(
-      remarks, fmt::format("mesh: {} pairs of nodes lie at one place each", copies.size()), Rank::wrong))
+      remarks, fmt::format("mesh: {} pairs of nodes lie at one place each", copies), Rank::wrong))
       << app::text_of(remarks, true);
+}
+
+/// The right half, 0.3 m further along x2: of 13 nodes in the cut of each half 10 lie within faces of the other.
+TEST(Seams, InSpaceThatDoNotMeetAreTold) {
+  const Scratch scratch("careless_shifted_seam");
+  write(scratch.path() / "case.yaml", kBlock);
+  coupler::Case the_case = coupler::read_case(scratch.path() / "case.yaml");
+  fem::Mesh<3>& mesh = the_case.space->mesh;
+  ASSERT_EQ(cut_across(mesh), 13U);
+  std::set<int> right;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    if (mesh.element_positions(e).col(0).maxCoeff() < 2.1) continue;
+    mesh.regions["right"].push_back(e);
+    const std::vector<int>& nodes = mesh.elements[static_cast<std::size_t>(e)].nodes;
+    right.insert(nodes.begin(), nodes.end());
+  }
+  for (const int node : right) mesh.nodes[static_cast<std::size_t>(node)].y() += 0.3;
+  const coupler::Entry document =
+      coupler::load_document_of(coupler::DocumentKind::problem, the_case.file, {});
+  const auto remarks_now = [&] {
+    const app::PackingsAtRest none;
+    app::Remarks remarks;
+    app::hanging_nodes(app::Scene(the_case, document, none), remarks);
+    return remarks;
+  };
+  EXPECT_TRUE(is_told_of_features(
+      remarks_now(), "20 nodes lie within sides of elements that do not have them", Rank::wrong));
+  the_case.space->lifetimes["right"] = {1, INT_MAX};
+  EXPECT_TRUE(remarks_now().empty()) << "halves that are never there at once";
+  the_case.space->lifetimes.clear();
+  for (const int node : right) mesh.nodes[static_cast<std::size_t>(node)].x() += 1e-3;
+  EXPECT_TRUE(remarks_now().empty()) << "across a gap";
 }
 
 }  // namespace
