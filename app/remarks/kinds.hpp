@@ -62,6 +62,7 @@ void drains_dug_away(const Scene& scene, Remarks& remarks);
 void loads_behind_walls(const Scene& scene, Remarks& remarks);
 void polygons_of_cylinders(const Scene& scene, Remarks& remarks);
 void end_of_run_before(const Scene& scene, Remarks& remarks);
+void pressure_of_run_before(const Scene& scene, Remarks& remarks);
 void output(const Scene& scene, Remarks& remarks);
 void cost(const Scene& scene, Remarks& remarks);
 /// Adds to the other kinds: only where they have no remark on time zero.

@@ -75,7 +75,8 @@ constexpr Kind kOtherRemarks[] = {{movement},
                                   {drains_dug_away},
                                   {loads_behind_walls},
                                   {polygons_of_cylinders},
-                                  {end_of_run_before}};
+                                  {end_of_run_before},
+                                  {pressure_of_run_before, true}};
 
 void look_by(std::span<const Kind> kinds, const Scene& scene, Remarks& remarks) {
   const bool is_wet = scene.find({"water"}) != nullptr;

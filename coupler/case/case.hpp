@@ -68,6 +68,9 @@ struct RunBefore {
   std::string name;  ///< of its folder, as the case has it
   fem::Continuum continuum = fem::Continuum::cosserat;
   std::vector<double> least, largest;  ///< corners of the box around its body, m; empty: not known
+  double pressure = 0.0;               ///< mean over its points, Pa; without that of water
+  /// Stress behind the sides of each boundary that this case loads, in their order, Pa, tension positive; NaN: none is known.
+  std::map<std::string, std::vector<Eigen::Matrix3d>> behind = {};
 };
 
 /// Everything a run needs, read from a case file and checked. A plain value apart from the recipes.

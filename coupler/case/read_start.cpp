@@ -12,6 +12,7 @@
 #include "common/prefixed_archive.hpp"
 #include "coupler/case/parts.hpp"
 #include "coupler/case/quantity.hpp"
+#include "coupler/case/stress_at_end.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
 #include "fem/mesh/box_around.hpp"
 #include "fem/solver/end_of_run.hpp"
@@ -184,9 +185,10 @@ template <int dim>
 void check_problem(const Entry& start, Checkpoint& end, const fem::Problem<dim>& problem,
                    const std::string& run, CaseParts& parts) {
   const std::optional<fem::EndOfRun<dim>> body = body_at_end<dim>(end);
-  const RunBefore& before = parts.result.run_before.emplace(run_before_of(end, run, body));
+  RunBefore& before = parts.result.run_before.emplace(run_before_of(end, run, body));
   check_body(start, before, problem, parts);
   if (!body) return;
+  if (parts.faults.empty()) add_stress_at_end(end, *body, problem, before);
   if (parts.faults.empty()) check_regions_there(start, *body, problem, regions_of(end.identity), run, parts);
   check_mesh(start, body->mesh, problem, run, parts);
 }

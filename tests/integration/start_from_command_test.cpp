@@ -112,6 +112,35 @@ TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
   EXPECT_EQ(program("check second.yaml").out.find(remark), std::string::npos);
 }
 
+// Ground under its weight, 20 kPa a metre, and 2 kPa: the stress grows tenfold within the half metre of an element.
+TEST_F(StartFromCommand, ALoadFarFromThatOfTheRunIsRemarked) {
+  const auto ground = [](const std::string& load, const std::string& factor, const std::string& more) {
+    return replaced_in(block(load, "body: [{unit_weight: 20 kN/m3" + factor + "}]\n" + more),
+                       "fix: [u1, u2]}", "fix: [u2]}, {on: [left, right], fix: [u1]}");
+  };
+  write(scratch_.path() / "first.yaml", ground("[[0, 0], [1, 2 kPa]]", ", factor: [[0, 0], [1, 1]]", ""));
+  const Outcome first = program("run first.yaml -o first --quiet");
+  ASSERT_EQ(first.status, 0) << first.errors;
+  const auto second = [&](const std::string& load) {
+    write(scratch_.path() / "second.yaml",
+          ground("[[0, " + load + "], [1, 8 kPa]]", "", "start_from: first\n"));
+    const Outcome checked = program("check second.yaml");
+    EXPECT_EQ(checked.status, 0) << checked.errors;
+    return checked.out;
+  };
+  EXPECT_NE(second("5 kPa").find(
+                "second.yaml:6: start_from: 'top' carries 5 kPa at time zero, and 'first' has left "
+                "2 kPa behind it"),
+            std::string::npos)
+      << second("5 kPa");
+  EXPECT_NE(second("0.9 kPa").find("'top' carries 900 Pa at time zero, and 'first' has left 2 kPa"),
+            std::string::npos)
+      << second("0.9 kPa");
+  for (const char* const load :
+       {"2 kPa", "3 kPa", "0"})  // nothing on a free surface: a run may have dug it free
+    EXPECT_EQ(second(load).find("has left"), std::string::npos) << second(load);
+}
+
 TEST_F(StartFromCommand, ProfilesOfAnEarlierRunAreGone) {
   ASSERT_EQ(program("run first.yaml -o first --quiet --set steps.count=6").status, 0);
   ASSERT_TRUE(std::filesystem::exists(scratch_.path() / "first/profiles/axis-00006.csv"));
