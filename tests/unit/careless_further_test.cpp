@@ -59,6 +59,20 @@ INSTANTIATE_TEST_SUITE_P(
                       with_reference("InPascals", "90", "saves nothing", Rank::costly)),
     [](const auto& info) { return info.param.name; });
 
+/// Elements of 500 mm in ground that yields and does not soften, and in elastic ground.
+INSTANTIATE_TEST_SUITE_P(
+    LengthBelowElements, FurtherCarelessTest,
+    ::testing::Values(
+        Careless{"OfDust", kGround, "lc: 20 cm", "lc: 0.02 mm",
+                 "measure 500 mm, 25000 times lc (at most 10000): lc has no effect", Rank::doubtful},
+        Careless{
+            "OfDustInElasticGround", kGround,
+            "elastoplastic, E: 30 MPa, nu: 0.3, Gc: 12 MPa, lc: 20 cm, friction_angle: 30 deg, dilatancy_angle: "
+            "5 deg, cohesion: 10 kPa",
+            "elastic, E: 30 MPa, nu: 0.3, Gc: 12 MPa, lc: 0.02 mm", "25000 times lc (at most 10000)",
+            Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
 #ifdef POLARGRAIN_HAS_GMSH
 /// Two squares of one element of eight nodes on each other, 1 m wide. @param own whether the upper one has nodes of its own
 std::string two_squares(bool own) {

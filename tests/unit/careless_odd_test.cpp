@@ -46,6 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "friction_angle: 0, dilatancy_angle: 0, cohesion: 60 kPa"},
         Careless{"Submerged", replaced(kGround, "18 kN/m3, K0", "9 kN/m3, K0"), "  - {unit_weight: 18",
                  "  - {unit_weight: 9"},
+        Careless{"LengthOfFineSand", kGround, "lc: 20 cm", "lc: 0.2 mm"},
         Careless{"Overconsolidated", kGround, "K0: 0.5", "K0: 1.5"},
         Careless{"LargeDeformation", kGrains, "continuum: cosserat", "deformation: large"},
         Careless{

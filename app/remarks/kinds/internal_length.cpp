@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
 
@@ -26,6 +27,23 @@ void against_elements(const Scene& scene, const SceneRegion& region, double leng
                region.material, region.name, 1e3 * element, ratio, kMostElementOverLength)),
        fmt::format("elements of {:.4g} mm where bands are expected, or 'lc: {:.3g} mm' and more",
                    1e3 * kMostElementOverLength * length, 1e3 * element / kMostElementOverLength)});
+}
+
+/// Where no bands are looked for: a mesh in millimetres that is read in metres, or a wrong unit of lc.
+void far_below_elements(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
+  constexpr double kMost = 1e4;  // elements of 1 m have some 1,000 lengths of a sand
+  const double element = usual_element(scene, region);
+  const double ratio = element / length;
+  if (region.elements.size() == 1 || ratio <= kMost) return;
+  if (is_strong(scene, region) && softens(scene, region)) return;
+  remarks.push_back(
+      {Rank::doubtful, ratio / kMost,
+       scene.place({"materials", region.material, "lc"})
+           .fault(fmt::format("material '{}': the elements of region '{}' measure {}, {:.0f} times lc (at "
+                              "most {:.0f}): lc has no effect",
+                              region.material, region.name, metres(element), ratio, kMost)),
+       "a mesh file is read in metres: one in millimetres needs Mesh.ScalingFactor = 0.001; check the "
+       "unit of lc"});
 }
 
 void against_body(const Scene& scene, const SceneRegion& region, double length, Remarks& remarks) {
@@ -117,6 +135,7 @@ void internal_length(const Scene& scene, Remarks& remarks) {
     const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
     if (!length || *length <= 0.0) continue;
     if (is_strong(scene, region)) against_elements(scene, region, *length, remarks);
+    far_below_elements(scene, region, *length, remarks);
     against_body(scene, region, *length, remarks);
     against_grains(scene, region, *length, remarks);
   }
