@@ -66,7 +66,7 @@ class Together {
   std::vector<std::vector<char>> there_;
 };
 
-/// Nodes of the outline that lie within a side of it and are at the place of none of its nodes. Where an interface parts the body,
+/// The nodes of the outline that lie within a side of it, but for those at a place of its nodes: where an interface parts the body,
 /// both sides have nodes at the same places.
 template <int dim>
 std::set<int> nodes_within_sides(const Scene& scene, const fem::Problem<dim>& problem) {
