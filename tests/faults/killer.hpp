@@ -99,7 +99,7 @@ class Pace {
 
 struct WorkerKills {
   int sent = 0;
-  int before_last_step = 0;  ///< of these, with a whole step to go: the run must have noticed them
+  int before_last_step = 0;  ///< of these, dead with a whole step to go: the run must have noticed them
 };
 
 /// Kills children of a run, picked at random, each but once, at random moments behind every so many of its steps, until it has killed
@@ -121,6 +121,8 @@ inline WorkerKills kill_workers(Beside& run, const std::filesystem::path& histor
     hit.insert(worker);
     if (kill(worker, SIGKILL) != 0) continue;
     ++done.sent;
+    // A process whose end has been asked for ends when it has the processor next: others may go on for steps by then.
+    while (is_alive(worker) && run.running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (rows_of(history) + 1 < rows) ++done.before_last_step;
   }
   return done;

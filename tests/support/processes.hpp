@@ -21,4 +21,14 @@ inline std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
+/// Whether a process has not ended; one that its parent has not asked about has.
+inline bool is_alive(pid_t process) {
+  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  std::getline(in, text);
+  const std::size_t name_end = text.rfind(')');  // of the program, which may hold anything
+  return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] != 'Z' &&
+         text[name_end + 2] != 'X';
+}
+
 }  // namespace polargrain::testing
