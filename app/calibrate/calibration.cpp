@@ -321,9 +321,11 @@ std::optional<double> value_of(const TargetPoint& point, const std::vector<std::
   }
   const bool came_to_end = rows.back()[place_in(columns, "stage")] == point.end_stage &&
                            rows.back()[place_in(columns, "row")] == point.end_row;
-  const auto row = point.where == TargetPoint::Where::last
-                       ? rows.end() - 1
-                       : std::ranges::max_element(rows, {}, [y](const auto& one) { return one[y]; });
+  const auto row =
+      point.where == TargetPoint::Where::last
+          ? rows.end() - 1
+          : std::ranges::max_element(
+                rows, {}, [y, sign = point.sign_of_largest()](const auto& one) { return sign * one[y]; });
   if (!came_to_end && row == rows.end() - 1) return {};
   return (*row)[y];
 }

@@ -35,6 +35,8 @@ struct TargetPoint {
   double at = 0.0;    ///< value of that column
   double value = 0.0;
   double error = 1.0;  ///< standard deviation of its reading
+  /// Of `largest`: a negative value (a stress: tension is positive) means the most negative row, the mirror of the others.
+  [[nodiscard]] double sign_of_largest() const { return value < 0.0 ? -1.0 : 1.0; }
 };
 
 /// A calibration as a specification asks for it, checked (docs/element_tests.md).

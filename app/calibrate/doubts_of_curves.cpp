@@ -50,15 +50,15 @@ double reach_of(const std::string& name, const std::vector<std::string>& columns
   return reach;
 }
 
-/// Whether a column still grows at the end of the test: its largest value is that of the last row.
-/// @param stage the only one that counts; 0: all
-bool is_rising(const std::string& name, int stage, const std::vector<std::string>& columns,
+/// Whether a column still grows at the end of the test, on the side of a largest value: that is the one of the last row.
+bool is_rising(const TargetPoint& point, const std::vector<std::string>& columns,
                std::vector<std::vector<double>> rows) {
-  const auto column = static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  const int stage = point.stage;
+  const auto column = static_cast<std::size_t>(std::ranges::find(columns, point.column) - columns.begin());
   const auto of_stage = static_cast<std::size_t>(std::ranges::find(columns, "stage") - columns.begin());
   if (stage > 0) std::erase_if(rows, [&](const auto& row) { return row[of_stage] != stage; });
   if (column >= columns.size() || rows.size() < 2) return false;
-  const auto size_of = [&](const std::vector<double>& row) { return std::abs(row[column]); };
+  const auto size_of = [&](const auto& row) { return point.sign_of_largest() * row[column]; };
   return std::ranges::all_of(
       rows, [&](const auto& row) { return &row == &rows.back() || size_of(row) < size_of(rows.back()); });
 }
@@ -81,7 +81,7 @@ std::vector<std::string> doubts_of_curves(
   std::vector<std::string> doubts;
   for (const TargetPoint& point : calibration.points)
     if (point.where == TargetPoint::Where::largest &&
-        is_rising(point.column, point.stage, columns[point.test], curves[point.test].front()))
+        is_rising(point, columns[point.test], curves[point.test].front()))
       doubts.push_back(fmt::format(
           "{} of test '{}': its largest value is that of the last row, so no peak was reached: let the test go on, or write "
           "'last' for 'largest'",

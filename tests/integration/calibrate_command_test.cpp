@@ -100,7 +100,7 @@ TEST_F(Calibrate, SaysWhatTheDataDoNotTell) {
   make_laboratory();
   write(scratch.path() / "spec.yaml", specification("  stiffness: {bounds: [5e7, 5e8], start: 9e7}\n"
                                                     "  limit: {bounds: [0.4, 0.6], start: 0.5}\n",
-                                                    "  - {column: s22_Pa, largest: -100e3, error: 1e3}\n"
+                                                    "  - {column: s11_Pa, largest: -100e3, error: 1e3}\n"
                                                     "  - {column: s22_Pa, last: -200e3, error: 1e3}\n" +
                                                         kStress));
   const Outcome outcome = run("calibrate lab.csv spec.yaml -o out -w 1");

@@ -12,6 +12,7 @@ polargrain_tests(unit polargrain_coupler
   unit/cell_increment_test.cpp
   unit/network_moduli_test.cpp)
 polargrain_tests(unit polargrain_app
+  unit/calibration_points_test.cpp
   unit/envelope_test.cpp)
 polargrain_tests(unit polargrain_common
   unit/coupler_noise_test.cpp)
