@@ -130,6 +130,8 @@ std::size_t CsvTable::column(const std::string& name) const {
   const auto found = std::ranges::find(names_, name);
   if (found == names_.end())
     fail(line_of_names_, fmt::format("there is no column '{}'; there are {}", name, fmt::join(names_, ", ")));
+  if (std::find(found + 1, names_.end(), name) != names_.end())
+    fail(line_of_names_, fmt::format("the column '{}' stands there twice; give it once", name));
   return static_cast<std::size_t>(found - names_.begin());
 }
 

@@ -26,7 +26,7 @@ class CsvTable {
   [[nodiscard]] int line_of(std::size_t row) const { return rows_[row].line; }
   /// The line of the names of the columns.
   [[nodiscard]] int line_of_names() const { return line_of_names_; }
-  /// @throws InputError naming the columns of the table when it has no such column
+  /// @throws InputError naming the columns of the table when it has no such column, or when it has two: which is meant?
   [[nodiscard]] std::size_t column(const std::string& name) const;
   [[nodiscard]] const std::string& cell(std::size_t row, std::size_t column) const;
   [[nodiscard]] const std::string& cell(std::size_t row, const std::string& name) const {

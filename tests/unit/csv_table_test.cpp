@@ -55,6 +55,12 @@ TEST_F(CsvTableTest, CanLeaveRowsOutThatHaveNotACellForEachColumn) {
   EXPECT_EQ(faults[1].line, 5);
 }
 
+// The first would be taken, be it the one that is meant or not. Columns that nobody asks for, unnamed ones too, may repeat.
+TEST_F(CsvTableTest, AColumnThatIsThereTwiceIsNotTaken) {
+  EXPECT_EQ(fault("a,b,b\n1,2,3\n"), "1: the column 'b' stands there twice; give it once");
+  EXPECT_EQ(fault("a,a,b,,\n1,1,2,,\n"), "none");
+}
+
 TEST_F(CsvTableTest, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(fault("a,b\n1,2\n"), "none");
   EXPECT_EQ(fault("a,b\n1,2\n3\n"),
