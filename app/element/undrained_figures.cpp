@@ -16,6 +16,8 @@ namespace {
 
 /// Of the mean stress at the start of a stage.
 constexpr double kShare = 0.01;
+/// Of the same: what is closer to the start is no extreme. A law that keeps its volume keeps p' but for rounding.
+constexpr double kRounding = 1e-4;
 
 /// Lines on extremes that the rows are too few to see; empty without one.
 std::string lines_on_rows(const std::string& name, const UndrainedFigures& figures) {
@@ -80,7 +82,11 @@ UndrainedFigures figures_of_stage(const ElementResult& result, const StageRows& 
   look_at(*stage.start, true, false);
   for (const TableRow* row : stage.rows) look_at(*row, false, row == stage.rows.front());
   figures.flows = figures.least_mean_stress < kShare * start;
-  if (risen <= kShare * start || figures.least_mean_stress >= start)
+  const bool falls = start - figures.least_mean_stress > kRounding * start;
+  const double at_start = value_in(result, *stage.start, "pore_pressure_Pa");
+  if (!falls) figures.least_in_first_row = false;
+  if (figures.largest_pore_pressure - at_start <= kRounding * start) figures.largest_in_first_row = false;
+  if (risen <= kShare * start || !falls)
     figures.transformation_angle = std::numeric_limits<double>::quiet_NaN();
   return figures;
 }

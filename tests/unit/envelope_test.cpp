@@ -173,6 +173,18 @@ TEST(Undrained, PhaseTransformationIsWhereTheMeanStressTurns) {
   EXPECT_FALSE(undrained_figures(with_stages({-1, -1}), undrained({100e3, 100e3})).is_undrained);
 }
 
+// An elastic law keeps p' but for rounding, 1e-10 of it, then the law dilates.
+TEST(Undrained, RoundingIsNoPhaseTransformation) {
+  ElementResult result = with_stages({-1, element::k11});
+  result.curves = {undrained({200e3, 200e3 * (1.0 - 1e-10), 200e3, 250e3})};
+  EXPECT_TRUE(std::isnan(undrained_figures(result, result.curves.front()).transformation_angle));
+  const std::string text = undrained_summary(result);
+  EXPECT_EQ(text.find("first row"), std::string::npos) << text;
+  // 0.1 % below the start is a turn.
+  EXPECT_DOUBLE_EQ(
+      undrained_figures(result, undrained({200e3, 199.9e3, 199.8e3, 250e3})).transformation_angle, 22.0);
+}
+
 TEST(Undrained, ExtremesAreThoseOfAllUndrainedStages) {
   ElementResult result = with_stages({-1, element::k11, element::k11, -1});
   ElementCurve curve = undrained({100e3, 60e3, 110e3});  // u: 0, 40, -10 kPa
