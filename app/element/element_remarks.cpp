@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -192,12 +193,78 @@ void look_at_cohesion(const Entry& material, double pressure, Remarks& remarks) 
        "check the unit of the cohesion and of the pressure"});
 }
 
+/// The prescribed stress that a stage brings from the side of pressure to tension; null: none, or the others outweigh it.
+/// @param stresses the normal ones, as far as they are known; goes to the end of the stage
+const element::Constraint* tension_in(const element::Stage& stage,
+                                      std::array<std::optional<double>, 3>& stresses) {
+  using element::Constraint;
+  const auto before = std::exchange(stresses, {});
+  const Constraint* found = nullptr;
+  double sum = 0.0;
+  bool is_known = true;  // one that is held where a strain or a sum has left it may outweigh the others
+  for (const Constraint& constraint : stage.constraints) {
+    if (constraint.kind != Constraint::Kind::stress) continue;
+    const bool reaches = constraint.way == Constraint::Way::reach;
+    // p counts compression positive; it is the whole mean stress.
+    if (reaches && constraint.name == "p" && constraint.amount < 0.0) return &constraint;
+    if (constraint.place < 0) is_known = false;
+    if (constraint.place < 0 || constraint.place > k33) continue;
+    const auto place = static_cast<std::size_t>(constraint.place);
+    if (reaches)
+      stresses[place] = constraint.amount;
+    else if (before[place])
+      stresses[place] = *before[place] * (constraint.way == Constraint::Way::scale ? constraint.amount : 1.0);
+    is_known = is_known && stresses[place].has_value();
+    sum += stresses[place].value_or(0.0);
+    if (reaches && constraint.amount > 0.0 && found == nullptr) found = &constraint;
+  }
+  return is_known && sum > 0.0 ? found : nullptr;
+}
+
+/// Keys of tests count compression positive, components tension: a wrong sign pulls at a sample that begins under pressure.
+void look_at_tension(const Entry& document, const ElementSpecification& specification, Remarks& remarks) {
+  std::array<std::optional<double>, 3> stresses;
+  stresses.fill(-specification.pressure);
+  const Entry* const list = document.find("stages");
+  for (std::size_t k = 1; k < specification.stages.size(); ++k) {  // 0 is the consolidation
+    const element::Stage& stage = specification.stages[k];
+    const element::Constraint* const pull = tension_in(stage, stresses);
+    if (pull == nullptr) continue;
+    const Entry& of_stage = list != nullptr && k <= list->items.size() ? list->items[k - 1] : document;
+    const bool is_named = of_stage.find("test") != nullptr;
+    const std::string key = is_named ? "axial_stress" : pull->name;
+    const Entry* const place = of_stage.find(key);
+    if (place == nullptr) continue;
+    const bool is_component = !is_named && key != "p";
+    const double amount = 1e-3 * std::abs(pull->amount);
+    remarks.push_back(
+        {Rank::wrong, std::max(1.0, 1e3 * amount / specification.pressure),
+         place->fault(fmt::format("{}: {} is tension, and the sample begins under {:.4g} kPa of pressure",
+                                  key, place->text, 1e-3 * specification.pressure)),
+         is_component
+             ? fmt::format("{} counts tension positive; write -{:.6g} kPa for compression", key, amount)
+             : fmt::format("{} counts compression positive; write {:.6g} kPa", key, amount)});
+    return;
+  }
+}
+
+void look_at_void_ratio(const Entry& document, const ElementSpecification& specification, Remarks& remarks) {
+  if (!specification.void_ratio || *specification.void_ratio <= kMostVoidRatio) return;
+  remarks.push_back(
+      {Rank::doubtful, *specification.void_ratio / kMostVoidRatio,
+       document.find("void_ratio")
+           ->fault(fmt::format("void_ratio: {:.4g} (sand: 0.4 to 1, clay: to 3)", *specification.void_ratio)),
+       fmt::format("check it; if per cent are meant, write {:.4g}", 0.01 * *specification.void_ratio)});
+}
+
 }  // namespace
 
 Remarks remarks_on_element(const Entry& document, std::span<const ElementSpecification> specifications) {
   Remarks remarks;
   const ElementSpecification& first = specifications.front();
   look_at_packings(document, first, remarks);
+  look_at_tension(document, first, remarks);
+  look_at_void_ratio(document, first, remarks);
   if (const Entry* const material = document.find("material")) {
     const double pressure =
         std::ranges::max_element(specifications, {}, &ElementSpecification::pressure)->pressure;

@@ -144,6 +144,22 @@ CurveFigures figures_of(const ElementResult& result, const ElementCurve& curve) 
   return figures;
 }
 
+/// A line where a sample that began under pressure comes to a mean stress in tension, which may be a wrong sign; else empty.
+std::string line_on_tension(const ElementResult& result, const ElementCurve& curve) {
+  constexpr double kPulled = 0.01;  // of the pressure at the start: closer to zero there is none
+  if (std::ranges::find(result.columns, "p_Pa") == result.columns.end()) return {};
+  const std::size_t p = column_named(result, "p_Pa");
+  const double start = curve.rows.front()[p];
+  const auto row = std::ranges::find_if(
+      curve.rows, [&](const auto& values) { return start > 0.0 && values[p] < -kPulled * start; });
+  if (row == curve.rows.end()) return {};
+  return fmt::format(
+      "{}: p is {:.4g} kPa in row {:.0f} of stage {:.0f}: tension. 'axial_strain', 'axial_stress' and 'p' count compression "
+      "positive, components tension: check the signs\n",
+      curve.name, 1e-3 * (*row)[p], (*row)[column_named(result, "row")],
+      (*row)[column_named(result, "stage")]);
+}
+
 }  // namespace
 
 std::span<const std::vector<double>> rows_of_test(const ElementResult& result, const ElementCurve& curve) {
@@ -179,8 +195,10 @@ std::string summary_of(const ElementResult& result) {
   std::string text = fmt::format("{:<24} {:>16} {:>16} {:>16} {:>16} {:>6}\n", "", "peak angle, deg",
                                  "at strain, %", "last angle, deg", "last volume, %", "jumps");
   std::array<std::vector<double>, 4> values;
+  std::string on_tension;
   for (const ElementCurve& curve : result.curves) {
     if (curve.rows.empty()) continue;
+    on_tension += line_on_tension(result, curve);
     const CurveFigures f = figures_of(result, curve);
     const std::array<double, 4> numbers{f.friction_angle, 100.0 * f.strain_at_peak, f.last_angle,
                                         100.0 * f.last_volume_strain};
@@ -189,13 +207,13 @@ std::string summary_of(const ElementResult& result) {
     for (std::size_t k = 0; k < 4 && curve.failure.empty(); ++k) values[k].push_back(numbers[k]);
   }
   const std::size_t count = values[0].size();
-  if (count < 2) return text;
+  if (count < 2) return text + on_tension;
   text += fmt::format("{:<24}", fmt::format("mean of {}, 95 %", count));
   for (const std::vector<double>& of : values) {
     const auto [mean, half] = mean_and_interval(of);
     text += fmt::format(" {:>16}", fmt::format("{:.2f} +- {:.2f}", mean, half));
   }
-  return text + '\n';
+  return text + '\n' + on_tension;
 }
 
 }  // namespace polargrain::app

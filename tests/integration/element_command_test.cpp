@@ -423,6 +423,60 @@ TEST_F(ElementCommand, RemarksComeBeforeTheTest) {
       << softer.out;
 }
 
+// Keys of tests count compression positive, components tension: a wrong sign pulled at the sample without a word.
+TEST_F(ElementCommand, AStressOfTheWrongSignIsTold) {
+  const auto told = [&](const std::string& test) { return run_text(kLaw + "rows: 2\n" + test).out; };
+  const std::string oedometer = told("test: oedometer\naxial_stress: -150 kPa\n");
+  EXPECT_NE(
+      oedometer.find("wrong: spec.yaml:5: axial_stress: -150 kPa is tension, and the sample begins under "
+                     "100 kPa of pressure; axial_stress counts compression positive; write 150 kPa"),
+      std::string::npos)
+      << oedometer;
+  const auto stages = [&](const std::string& list) {
+    return run_text(kLaw + "stages:\n  - {rows: 2, " + list + "}\n").out;
+  };
+  const std::string components = stages("s11: 50 kPa, s22: 50 kPa, s33: 50 kPa");
+  EXPECT_NE(
+      components.find("wrong: spec.yaml:4: s11: 50 kPa is tension, and the sample begins under 100 kPa of "
+                      "pressure; s11 counts tension positive; write -50 kPa for compression"),
+      std::string::npos)
+      << components;
+  EXPECT_NE(stages("p: -50 kPa, q: hold, e33: hold").find("p counts compression positive; write 50 kPa"),
+            std::string::npos);
+  // Neighbours: compression, and a pull along the axis that the lateral pressure outweighs.
+  EXPECT_EQ(told("test: oedometer\naxial_stress: 150 kPa\n").find("is tension"), std::string::npos);
+  EXPECT_EQ(stages("s11: -50 kPa, s22: -50 kPa, s33: -50 kPa").find("is tension"), std::string::npos);
+  EXPECT_EQ(stages("s11: hold, s22: 20 kPa, s33: hold").find("is tension"), std::string::npos);
+  EXPECT_EQ(stages("e22: -0.5 %}\n  - {rows: 2, s11: hold, s22: 20 kPa, s33: hold").find("is tension"),
+            std::string::npos);
+}
+
+// E / (1 - nu^2) strains by 1 % against a held lateral stress: 449 kPa of tension there, and nu times the change across.
+TEST_F(ElementCommand, AMeanStressInTensionIsTold) {
+  const auto told = [&](const std::string& strain) {
+    return run_text(kLaw + "rows: 1\ntest: biaxial\naxial_strain: " + strain + "\n").out;
+  };
+  const std::string pulled = told("-1 %");
+  EXPECT_NE(pulled.find("elastic: p is -138.1 kPa in row 1 of stage 1: tension. 'axial_strain'"),
+            std::string::npos)
+      << pulled;
+  EXPECT_EQ(told("-0.1 %").find(": tension"), std::string::npos) << "extension under pressure";
+  EXPECT_EQ(told("1 %").find(": tension"), std::string::npos);
+}
+
+TEST_F(ElementCommand, AVoidRatioInPerCentIsTold) {
+  const auto told = [&](const std::string& ratio) {
+    return run_text(kLaw + "rows: 2\ntest: biaxial\naxial_strain: 0.1 %\nvoid_ratio: " + ratio + "\n").out;
+  };
+  const std::string far = told("70");
+  EXPECT_NE(
+      far.find("doubtful: spec.yaml:6: void_ratio: 70 (sand: 0.4 to 1, clay: to 3); check it; if per cent "
+               "are meant, write 0.7"),
+      std::string::npos)
+      << far;
+  EXPECT_EQ(told("3").find("doubtful"), std::string::npos);
+}
+
 TEST_F(ElementCommand, ACellThatFailsIsAFailureWithItsReason) {
   write(scratch.path() / "weak.in", "fail_beyond 1e-6\n");
   const Outcome outcome =
