@@ -11,11 +11,14 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <regex>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "app/grains/cell_paths.hpp"
 #include "app/grains/grain_files.hpp"
+#include "app/page/page.hpp"
 #include "common/error.hpp"
 #include "common/seconds.hpp"
 
@@ -89,17 +92,51 @@ fs::path make_rescue_directory(const fs::path& directory) try {
 namespace {
 
 /// The log last: it tells that the directory is ours, should its removal be interrupted.
-constexpr std::array kNamesOfARun{
-    kCheckpointBeforeFile, "history.csv", "costs.csv", "fields.pvd", "points.pvd",
-    "summary.json",        "sample.h5",   "fields",    "profiles",   kCellPathsFolder,
-    kGrainsFolder,         "logs",        "replay",    "run.log"};
+constexpr std::array kFilesOfARun{kCheckpointBeforeFile, "history.csv",  "costs.csv", "fields.pvd",
+                                  "points.pvd",          "summary.json", "sample.h5", "run.log"};
+
+struct FolderOfARun {
+  const char* name;
+  std::regex files;  ///< paths from the folder of what a run writes there
+};
+
+const std::vector<FolderOfARun>& folders_of_a_run() {
+  static const std::vector<FolderOfARun> folders{
+      {"fields", std::regex(R"(((step|points|interfaces)-\d{5,}\.vtu|structures-\d{5,}\.csv)(\.part)?)")},
+      {"profiles", std::regex(R"([^/]+-\d{5,}\.csv(\.part)?)")},
+      {kCellPathsFolder, std::regex(R"((cells|step-\d{5,})\.h5(\.part)?)")},
+      {kGrainsFolder, std::regex(R"(engine\.log|point-\d+(\.pvd(\.part)?|/step-\d{5,}\.vtu(\.part)?)?)")},
+      {"logs", std::regex(R"(worker-\d+\.log|grains\.log)")},
+      {"replay", std::regex(R"(packing\.(data|state)|cell\.in|start\.state|in\.replay|README\.md)")}};
+  return folders;
+}
+
+bool is_folder(const fs::path& place) {
+  return fs::is_directory(fs::symlink_status(place));
+}
+
+/// Folders go when nothing else is left in them. Links are not followed: they go, what they lead to stays.
+void clear(const fs::path& directory, const FolderOfARun& folder) {
+  const fs::path place = directory / folder.name;
+  if (fs::is_symlink(place)) fs::remove(place);
+  if (!is_folder(place)) return;
+  std::vector<fs::path> written{place};
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(place))
+    if (std::regex_match(entry.path().lexically_relative(place).string(), folder.files))
+      written.push_back(entry.path());
+  std::ranges::reverse(written);  // what is in a folder before it
+  for (const fs::path& path : written)
+    if (!is_folder(path) || fs::is_empty(path)) fs::remove(path);
+}
 
 void clear(const fs::path& directory) {
   if (fs::exists(directory / kCheckpointFile)) {
     fs::rename(directory / kCheckpointFile, directory / kOldCheckpointFile);
   }
-  fs::remove_all(directory / "report.html");
-  for (const char* file : kNamesOfARun) fs::remove_all(directory / file);
+  const fs::path page = directory / "report.html";
+  if (fs::is_regular_file(page) && why_no_page(page).empty()) fs::remove(page);
+  for (const FolderOfARun& folder : folders_of_a_run()) clear(directory, folder);
+  for (const char* file : kFilesOfARun) fs::remove(directory / file);
 }
 
 }  // namespace
@@ -111,7 +148,9 @@ bool is_of_a_run(const fs::path& file, const fs::path& directory) {
       place.lexically_relative(fs::weakly_canonical(fs::absolute(directory, error), error));
   if (error || inside.empty()) return false;
   const std::string name = inside.begin()->string();
-  return name == kCheckpointFile || name == kOldCheckpointFile || std::ranges::count(kNamesOfARun, name) > 0;
+  return name == kCheckpointFile || name == kOldCheckpointFile ||
+         std::ranges::count(kFilesOfARun, name) > 0 ||
+         std::ranges::count(folders_of_a_run(), name, &FolderOfARun::name) > 0;
 }
 
 std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& directory, bool resume) try {

@@ -39,15 +39,15 @@ class DirectoryLock {
   int descriptor_;
 };
 
-/// Makes the directory, locks it, and empties it of the files of a former run. Anything else in it stays; a
-/// former checkpoint is kept once, as checkpoint.old.h5. To resume: leaves all as it is.
+/// Makes the directory, locks it, and empties it of the files of a former run, known by their names. Anything else stays, in
+/// its folders too, and a report.html that is no page of polargrain; a former checkpoint is kept once, as checkpoint.old.h5. To resume: leaves all as it is.
 /// @throws InputError when it exists, is not empty and holds no former result (summary.json, run.log or a
 /// checkpoint): nothing of the user's own is ever mixed with results; when another run is at work in it; to
 /// resume, when it holds no run. RunError when it cannot be made or written.
 [[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
                                                                       bool resume);
 
-/// Whether a file is, or would be, one of those that a run writes into its result directory and erases there at its next start;
+/// Whether a file is, or would be, one of those that a run writes into its result directory, or lies in a folder of them:
 /// report.html and the files of `band` are not of them.
 bool is_of_a_run(const std::filesystem::path& file, const std::filesystem::path& directory);
 

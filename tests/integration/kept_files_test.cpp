@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/integration/command.hpp"
 
@@ -199,6 +201,56 @@ TEST_F(KeptFiles, ARunDoesNotEraseAFileOfItsCase) {
   write(at("case.yaml"), text);
   expect_refused("run case.yaml -o out",
                  "out/profiles/quake.csv lies in the result directory of this run, which would erase it");
+}
+
+TEST_F(KeptFiles, ARunErasesFilesOfAFormerOneAlone) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  const std::vector<std::string> own{"fields/view.pvsm",
+                                     "fields/view/step-00001.vtu",
+                                     "fields/step-00001 copy.vtu",
+                                     "profiles/lab-1.csv",
+                                     "profiles/view/lab-00001.csv",
+                                     "grains/user.txt",
+                                     "grains/point-3/view.pvsm",
+                                     "logs/user.txt",
+                                     "cell_paths/user.txt",
+                                     "replay/user.txt",
+                                     "other/fields/step-00001.vtu",
+                                     "report.html"};
+  const std::vector<std::string> former{"fields/step-00007.vtu",
+                                        "fields/points-123456.vtu",
+                                        "fields/structures-00007.csv",
+                                        "fields/step-00008.vtu.part",
+                                        "profiles/axis-2-00007.csv",
+                                        "grains/point-3.pvd",
+                                        "grains/point-3/step-00007.vtu",
+                                        "grains/point-4/step-00007.vtu",
+                                        "logs/worker-12.log",
+                                        "cell_paths/step-00007.h5",
+                                        "replay/in.replay"};
+  for (const auto* const files : {&own, &former})
+    for (const std::string& name : *files) {
+      std::filesystem::create_directories(at("out/" + name).parent_path());
+      write(at("out/" + name), "mine: " + name);
+    }
+  const Outcome outcome = polargrain("run case.yaml -o out --quiet");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  for (const std::string& name : own) EXPECT_EQ(content(at("out/" + name)), "mine: " + name);
+  for (const std::string& name : former) EXPECT_FALSE(std::filesystem::exists(at("out/" + name))) << name;
+  EXPECT_FALSE(std::filesystem::exists(at("out/grains/point-4"))) << "an empty folder of a run goes";
+  EXPECT_TRUE(std::filesystem::exists(at("out/fields/step-00001.vtu")));
+}
+
+TEST_F(KeptFiles, ARunErasesThePageOfAFormerOne) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  ASSERT_EQ(polargrain("report out").status, 0);
+  std::filesystem::remove_all(at("out/fields"));
+  std::filesystem::create_directories(at("large"));
+  write(at("large/step-00007.vtu"), "fields on another disk");
+  std::filesystem::create_directory_symlink("../large", at("out/fields"));
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(at("out/report.html")));
+  EXPECT_EQ(content(at("large/step-00007.vtu")), "fields on another disk");
 }
 
 }  // namespace
