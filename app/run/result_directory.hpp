@@ -39,8 +39,9 @@ class DirectoryLock {
   int descriptor_;
 };
 
-/// Makes the directory, locks it, and empties it of the files of a former run, known by their names. Anything else stays, in
-/// its folders too, and a report.html that is no page of polargrain; a former checkpoint is kept once, as checkpoint.old.h5. To resume: leaves all as it is.
+/// Makes the directory, locks it, and empties it of the files of a former run, known by their names. Anything else stays, also in
+/// its folders, and a report.html that is no page of polargrain. A former checkpoint is kept once, as checkpoint.old.h5. To
+/// resume: leaves all as it is.
 /// @throws InputError when it exists, is not empty and holds no former result (summary.json, run.log or a
 /// checkpoint): nothing of the user's own is ever mixed with results; when another run is at work in it; to
 /// resume, when it holds no run. RunError when it cannot be made or written.
