@@ -160,6 +160,11 @@ void InformedMaterial<dim>::allocate(std::size_t points) {
   }
   start.law.scaled_stress = complete_cell_stress(stress, stress);
   start.mobilisation = fem::initial_mobilisation<dim>(parameters_.mobilisation);
+  // A packing at rest under unequal stresses has mobilised that friction already. The margin is for rounding: at rest it is
+  // elastic.
+  fem::FrozenCone& cone = start.mobilisation.cone;
+  if (const auto at_rest = fem::cone_friction<dim>(frame_.moduli, start.law.scaled_stress, cone.cohesion))
+    cone.friction = std::max(cone.friction, *at_rest * (1.0 + 1e-9));
   start.held_friction = start.mobilisation.cone.friction;
   committed_.assign(points, start);
   trial_ = committed_;

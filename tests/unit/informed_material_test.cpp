@@ -42,8 +42,13 @@ class KnownCellsOfInformedMaterial {
   std::size_t last_point = 0;  ///< that it was said to stand for
   double fails_beyond = 1e9;   ///< of a strain increment
   double unrest = 0.0;         ///< unbalanced force ratio of its hundred grains
+  double vertical = 1.0;       ///< stress s22 of the packing at rest over the others
 
-  PlaneReply initial() { return reply(law_.initial_state(), elasticity().initial_stress); }
+  PlaneReply initial() {
+    Vector7 stress = elasticity().initial_stress;
+    stress(k22) *= vertical;
+    return reply(law_.initial_state(), stress);
+  }
 
   PlaneReply evaluate(const PlaneRequest& request) {
     ++calls;
@@ -566,6 +571,24 @@ TEST_F(InformedPointTest, ShowsWhatLawAndCellDisagreeAbout) {
   const std::vector<fem::Figure> figures = sand.figures();
   ASSERT_EQ(figures.size(), 12U);  // these four, and two each of points at limits
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(figures[i].value, expected, 1e-6);
+}
+
+// Of unequal stresses whose friction is beyond that of the first cone, 5 degrees: a ratio of 1.19.
+TEST(InformedMaterial, BeginsAtTheStressOfItsPackingWhateverItsRatio) {
+  for (const double ratio : {1.0, 1.1, 1.4, 2.0}) {
+    for (const InformedUpdate update : {InformedUpdate::frozen, InformedUpdate::fixed_point}) {
+      KnownCellsOfInformedMaterial cell(false);
+      cell.vertical = ratio;
+      InformedParameters<2> parameters = informed_parameters(update);
+      parameters.mobilisation.initial_friction = 0.0873;
+      InformedMaterial<2> material(cell.calls_to_it(), parameters);
+      material.allocate(1);
+      const Response<2> response = evaluate(material, Increment<2>{});
+      EXPECT_NEAR(response.stress(k22) / response.stress(k11), ratio, 1e-6);
+      EXPECT_NEAR(response.stress(k11), elasticity().initial_stress(k11),
+                  1e-6 * std::abs(response.stress(k11)));
+    }
+  }
 }
 
 }  // namespace
