@@ -24,6 +24,10 @@ FixCellStrain<dim>::FixCellStrain(LAMMPS* lammps, int count, char** words)
     if (!(damping_rate_ >= 0.0))
       error->all(FLERR, "Illegal fix cell/strain command: damping must not be negative");
   }
+  if (std::strcmp(update->unit_style, "si") != 0)
+    error->all(FLERR, "Fix cell/strain needs units si: stresses and strains come and go in them");
+  if (dim == 2 && (!domain->xperiodic || !domain->yperiodic))
+    error->all(FLERR, "Fix cell/strain needs a box that is periodic along x and y: boundary p p p");
   if (dim == 2 && !domain->triclinic)
     error->all(FLERR, "Fix cell/strain needs a triclinic box (a line 'xy xz yz' in the data)");
   if (dim == 3 && (!domain->triclinic || !domain->xperiodic || !domain->yperiodic || !domain->zperiodic))

@@ -73,6 +73,7 @@ std::string foreign_fix(const LAMMPS& lammps) {
 std::string foreign_scene(const LAMMPS& lammps, int dimension) {
   if (lammps.domain->dimension != dimension) return fmt::format("dimension {}", lammps.domain->dimension);
   if (lammps.force->newton_pair) return "newton on";
+  if (lammps.neighbor->exclude_setting() != 0) return "neigh_modify exclude";
   if (lammps.atom->rmass == nullptr || lammps.atom->radius == nullptr) return "an atom style without radii";
   return foreign_fix(lammps);
 }

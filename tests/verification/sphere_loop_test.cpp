@@ -221,6 +221,9 @@ TEST(SphereLoopChoice, IsSaidInALineWithTheReason) {
       said_at_rest(definition),
       "grains are stepped by LIGGGHTS's own loop, which is slower: the loop over spheres does not take fix "
       "viscous");
+  definition.script =
+      test::linear_spheres().script + "\ngroup two id 1 2\nneigh_modify exclude group two two\n";
+  EXPECT_TRUE(said_at_rest(definition).ends_with("the loop over spheres does not take neigh_modify exclude"));
   definition.control.loop = CellLoop::engine;
   EXPECT_EQ(said_at_rest(definition), "grains are stepped by LIGGGHTS's own loop, as `loop: engine` asks");
   // Their dashpots let go at the limit of their springs: a jump, behind which two orders of summation part.
