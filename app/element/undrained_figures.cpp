@@ -16,7 +16,7 @@ namespace {
 
 /// Of the mean stress at the start of a stage.
 constexpr double kShare = 0.01;
-/// Of the same: what is closer to the start is no extreme. A law that keeps its volume keeps p' but for rounding.
+/// Of the same: a value closer to the start is no extreme. A law that keeps its volume keeps p' but for rounding.
 constexpr double kRounding = 1e-4;
 
 /// Lines on extremes that the rows are too few to see; empty without one.

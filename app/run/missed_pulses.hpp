@@ -9,8 +9,8 @@
 
 namespace polargrain::app {
 
-/// What a load loses or gains that goes there and back within the explicit steps of real time, which take its values at
-/// their ends. Empty: nothing to speak of.
+/// A warning of a load that goes there and back within the explicit steps of real time, which take its values at
+/// their ends. Empty: no load does.
 /// @param step s @param end of the run, s
 template <int dim>
 std::string missed_pulses(const fem::Problem<dim>& problem, double step, double end) {

@@ -124,7 +124,7 @@ void clear(const fs::path& directory, const FolderOfARun& folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(place))
     if (std::regex_match(entry.path().lexically_relative(place).string(), folder.files))
       written.push_back(entry.path());
-  std::ranges::reverse(written);  // what is in a folder before it
+  std::ranges::reverse(written);  // the content of a folder comes before it
   for (const fs::path& path : written)
     if (!is_folder(path) || fs::is_empty(path)) fs::remove(path);
 }

@@ -69,7 +69,7 @@ struct RunBefore {
   fem::Continuum continuum = fem::Continuum::cosserat;
   std::vector<double> least, largest;  ///< corners of the box around its body, m; empty: not known
   double pressure = 0.0;               ///< mean over its points, Pa; without that of water
-  /// Stress behind the sides of each boundary that this case loads, in their order, Pa, tension positive; NaN: none is known.
+  /// Stress behind the sides of each boundary that this case loads, in their order, Pa, tension positive; NaN: it is not known.
   std::map<std::string, std::vector<Eigen::Matrix3d>> behind = {};
 };
 

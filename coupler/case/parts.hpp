@@ -90,7 +90,7 @@ struct CaseParts {
   [[nodiscard]] Dimension time() const {
     return water || in_real_time ? Dimension::duration : Dimension::number;
   }
-  bool in_real_time = false;  ///< what `steps` says, before they are read
+  bool in_real_time = false;  ///< as `steps` says, before they are read
 
   /// The contributions of an interface, a beam or an anchor, by its name: stages place and remove it.
   struct Structure {

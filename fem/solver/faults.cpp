@@ -227,7 +227,7 @@ void check_pressures(const Problem<dim>& problem, int stage, Messages& messages)
     if (covered.empty()) continue;
     const std::vector<int> nodes = problem.mesh.side_nodes(covered.front());
     messages.push_back(fmt::format(
-        "the pressure on '{}' has ground on both sides at {}, and none that it acts from; let it begin in the "
+        "the pressure on '{}' has ground on both sides at {}: it has no side to act from; let it begin in the "
         "stage that removes one side, or give 'traction', which has a direction",
         load.on, place_text<dim>(problem.mesh.nodes[static_cast<std::size_t>(nodes.front())])));
   }

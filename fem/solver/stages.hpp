@@ -42,7 +42,7 @@ template <int dim>
 std::vector<BoundarySide> sides_in_stage(const Problem<dim>& problem, const BoundaryLoad<dim>& load,
                                          int stage);
 
-/// Those of `sides` that have an element on both of their sides: they have no outward normal.
+/// The sides among `sides` that have an element on both of their sides: they have no outward normal.
 /// @param there as elements_in_stage has it
 template <int dim>
 std::vector<BoundarySide> covered_sides(const Mesh<dim>& mesh, std::vector<BoundarySide> sides,

@@ -507,7 +507,7 @@ TEST(stage, that_loads_a_curve_inside_of_the_body_is_a_fault) {
     return found.size() == 1 &&
            found.front().starts_with(
                stage +
-               "the pressure on 'floor' has ground on both sides at (1, -5), and none that it acts from");
+               "the pressure on 'floor' has ground on both sides at (1, -5): it has no side to act from");
   };
   problem.boundary_loads.front().life = {0, INT_MAX};
   EXPECT_TRUE(is_told(""));

@@ -66,7 +66,7 @@ std::optional<LoadOnEnd> load_on_end(const Scene& scene, const fem::Problem<dim>
 template <int dim>
 void compare_loads(const Scene& scene, const fem::Problem<dim>& problem, const coupler::RunBefore& before,
                    Remarks& remarks) {
-  // What a tie or single forces add to a boundary is not known.
+  // The stress that a tie or single forces add to a boundary is not known.
   std::set<std::string> others;
   for (const fem::Tie& tie : problem.ties) others.insert({tie.on, tie.to});
   for (const fem::NodeLoad& load : problem.node_loads) others.insert(load.on);
