@@ -193,7 +193,7 @@ void look_at_cohesion(const Entry& material, double pressure, Remarks& remarks) 
        "check the unit of the cohesion and of the pressure"});
 }
 
-/// The prescribed stress that a stage brings from the side of pressure to tension; null: none, or the others outweigh it.
+/// The prescribed stress that a stage brings from the side of pressure to tension; null: no stress does, or the others outweigh it.
 /// @param stresses the normal ones, as far as they are known; goes to the end of the stage
 const element::Constraint* tension_in(const element::Stage& stage,
                                       std::array<std::optional<double>, 3>& stresses) {

@@ -146,7 +146,7 @@ CurveFigures figures_of(const ElementResult& result, const ElementCurve& curve) 
 
 /// A line where a sample that began under pressure comes to a mean stress in tension, which may be a wrong sign; else empty.
 std::string line_on_tension(const ElementResult& result, const ElementCurve& curve) {
-  constexpr double kPulled = 0.01;  // of the pressure at the start: closer to zero there is none
+  constexpr double kPulled = 0.01;  // of the pressure at the start: closer to zero it counts as zero
   if (std::ranges::find(result.columns, "p_Pa") == result.columns.end()) return {};
   const std::size_t p = column_named(result, "p_Pa");
   const double start = curve.rows.front()[p];

@@ -252,7 +252,7 @@ TEST_F(DynamicsRun, APulseWithinAStepIsTold) {
     const Outcome outcome = run_in(scratch_.path(), POLARGRAIN " run " + name + ".yaml -w 1 -o " + name);
     return outcome.out + outcome.errors;
   };
-  const std::string brief = said("brief", "[[0.00999, 0 kPa], [0.01 s, 20 kPa], [0.01001 s, 0 kPa]]");
+  const std::string brief = said("brief", "[[0.00999 s, 0 kPa], [0.01 s, 20 kPa], [0.01001 s, 0 kPa]]");
   EXPECT_NE(brief.find("a load comes and goes within explicit steps of"), std::string::npos) << brief;
   EXPECT_EQ(said("long", "[[0.005, 0 kPa], [0.01, 0.04 kPa], [0.015, 0 kPa]]").find("a load"),
             std::string::npos);
