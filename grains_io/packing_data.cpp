@@ -45,9 +45,10 @@ std::string packing_data(const Packing& packing) {
   // The engine's box is a right one for good unless it is told its tilt, even a tilt of zero.
   text += fmt::format("{:.17g} {:.17g} {:.17g} xy xz yz\n", tilt, lean.x(), lean.y());
   text += "\nAtoms\n\n";
-  for (const Grain& grain : packing.grains) {
+  for (std::size_t k = 0; k < packing.grains.size(); ++k) {
+    const Grain& grain = packing.grains[k];
     const Eigen::Vector2d position = to_box_frame * grain.position;
-    text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", grain.id + 1, 2.0 * grain.radius,
+    text += fmt::format("{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", k + 1, 2.0 * grain.radius,
                         data_density(grain, space), position.x(), position.y(), grain.height);
   }
   return text;

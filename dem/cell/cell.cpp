@@ -103,7 +103,8 @@ class Cell final : public CellOfGrains {
   CellControl control_;
   QuasiStatic protocol_;
   Driver<dim> driver_;
-  Inertia inertia_;  // of the grains, as contacts count them
+  Inertia inertia_;                // of the grains, as contacts count them
+  std::vector<std::int64_t> ids_;  // of the packing's grains, which the engine counts from 1
   std::unique_ptr<GrainBox<dim>> grains_;
   double time_step_ = 0.0;        // s, for the packing at rest
   double frequency_bound_ = 0.0;  // rad/s, of the packing at rest
@@ -126,6 +127,7 @@ Cell<dim>::Cell(const CellDefinition& definition)
   driver_.set_up();
   const std::string remark = driver_.settle_time_step(control_.damping);
   inertia_ = inertia_of(lammps);
+  for (const Grain& grain : definition.packing.grains) ids_.push_back(grain.id);
   time_step_ = driver_.strain().time_step();
   grains_ = choose_box(driver_, control_.loop);
   grains_->progress = tell;
@@ -230,7 +232,7 @@ GrainView Cell<dim>::view() {
   const std::span<const double> rotations = grains_->rotations();
   for (std::size_t k = 0; k < grains.size(); ++k) {
     GrainView::Grain& grain = grains[k];
-    grain.id = atom.tag[k] - 1;
+    grain.id = ids_[static_cast<std::size_t>(atom.tag[k] - 1)];
     grain.radius = inertia_.radii[k];
     const GrainMotion<dim> motion = grains_->motion(static_cast<int>(k));
     std::ranges::copy(motion.place, grain.position.data());

@@ -93,7 +93,7 @@ class PlaneBox final : public PressedBox {
     for (int k = 0; k < lammps.atom->nlocal; ++k) {
       // Grains leave the box between two neighbour lists: fold them back.
       const Eigen::Vector2d position = box.folded({lammps.atom->x[k][0], lammps.atom->x[k][1]});
-      // The data file counts the grains, which stand in the order of their ids, from 1.
+      // The data file counts the grains from 1.
       packing.grains[static_cast<std::size_t>(lammps.atom->tag[k] - 1)].position = turn_ * position;
     }
     packing.state = keep_contacts ? save_state(lammps, box) : nullptr;

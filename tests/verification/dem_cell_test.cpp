@@ -124,6 +124,21 @@ TEST(Cell, RefusesForeignStatesAndAbsurdIncrements) {
   EXPECT_EQ(cell->evaluate(request(nullptr, 1e-4, 0.0, 0.0, 0.0)).response.quality, Quality::good);
 }
 
+TEST(Cell, AnswersAlikeWhateverTheNumbersOfItsGrains) {
+  for (const CellLoop loop : {CellLoop::automatic, CellLoop::engine}) {
+    CellDefinition definition = test::demo_cell();
+    definition.control.loop = loop;
+    const PlaneRequest asked = request(nullptr, 1e-4, 0.0, 0.0, -1e-4);
+    const PlaneReply expected = make_plane_cell(definition)->evaluate(asked);
+    // From 1, with gaps, backwards.
+    for (Grain& grain : definition.packing.grains) grain.id = 1 + 3 * (399 - grain.id);
+    EXPECT_TRUE(same_bits(make_plane_cell(definition)->evaluate(asked), expected));
+    const GrainView view = make_cell_service(definition)->view();
+    for (std::size_t k = 0; k < view.grains.size(); ++k)
+      EXPECT_EQ(view.grains[k].id, definition.packing.grains[k].id);
+  }
+}
+
 TEST(Cell, SaysWhenItDidNotComeToRest) {
   CellDefinition definition = test::demo_cell();
   definition.control.unbalanced_force_ratio = 1e-9;
