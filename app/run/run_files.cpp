@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
+#include "app/run/monitor_values.hpp"
 #include "app/run/place_values.hpp"
 #include "app/run/structure_files.hpp"
 #include "common/cell.hpp"
@@ -251,6 +253,10 @@ std::vector<CommittedStep> steps_of_history(const std::string& history, const co
     for (std::size_t c = columns_of_steps(the_case).size(); c < cells.size(); ++c)
       step.values.emplace_back(columns[c], real(c));
     steps.push_back(std::move(step));
+    if (the_case.real_time)
+      steps.back().report.energies.at_start =
+          std::max(std::abs(value_of(steps.front().values, "external_work")),
+                   std::abs(value_of(steps.front().values, "internal_work")));
   }
   return steps;
 }

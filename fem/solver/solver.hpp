@@ -82,8 +82,10 @@ struct Energies {
   double external = 0.0;  ///< work of loads and supports, and of the base through the damping
   double damped = 0.0;    ///< by ExplicitOptions::mass_damping, and of micro-rotations
   double absorbed = 0.0;  ///< by quiet boundaries
+  double at_start = 0.0;  ///< the larger of the works of the start, which internal and external are without
 
-  /// External energy that the others do not account for, over the largest of all. 0 but for rounding in small deformation.
+  /// External energy that the others do not account for, over the largest of all; where hardly anything moves, over what is
+  /// above the rounding of the works. 0 but for rounding in small deformation.
   [[nodiscard]] double error() const;
 };
 

@@ -240,6 +240,31 @@ TEST(dynamics, quiet_boundaries_carry_what_rests_on_them) {
   EXPECT_NEAR(solver.mean_displacement("right")(0) / pushed, 0.0, 1e-6);
 }
 
+// A load that a body bears from the start does work then, and none behind: what is left of its energies is rounding.
+TEST(dynamics, a_body_at_rest_has_no_error_of_energy) {
+  Problem<2> problem = body({{1.0, 1.0}, {1, 4}});
+  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}},
+                        {"left", Dof::u1, kZeroOfDynamics, {}},
+                        {"right", Dof::u1, kZeroOfDynamics, {}}};
+  problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(100e3)}};
+  Solver<2> solver(problem, {});
+  ASSERT_TRUE(solver.begin_real_time().converged);
+  const double work = solver.state().external_work;
+  EXPECT_GT(work, 1.0);
+  for (int row = 1; row <= 5; ++row) {
+    const StepReport report = solver.advance_real_time(0.01 * row);
+    ASSERT_TRUE(report.converged);
+    EXPECT_LT(std::abs(report.energies.external), 1e-10 * work);
+    EXPECT_LT(report.energies.error(), kEnergy);
+  }
+}
+
+// Energies above rounding count among themselves, however much work the start took.
+TEST(dynamics, an_energy_that_is_missing_is_an_error) {
+  const Energies wave{.kinetic = 0.4, .internal = 0.4, .external = 1.0, .at_start = 1e6};
+  EXPECT_NEAR(wave.error(), 0.2, 1e-12);
+}
+
 // At a corner the support of the other boundary holds: the base is shaken between quiet sides, and keeps its height.
 TEST(dynamics, quiet_boundaries_leave_the_supports_of_their_neighbours) {
   Problem<2> problem = body({{1.0, 1.0}, {4, 4}});
