@@ -260,16 +260,17 @@ int band(const BandCommandOptions& options) {
                       "one result directory was expected, or one or two CSV files of displacements"});
   // A name that ends otherwise is meant as a directory, which does not exist.
   const bool is_csv = of_fields && options.places.front().extension() == ".csv";
+  constexpr const char* kBeginning = "x,y,area,";
   if (is_csv) {
-    check_output("--fields", options.fields, options.places);
+    check_table("--fields", options.fields, options.places, kBeginning);
   } else {
     check_beside_run("--fields", options.fields, options.places.front());
-    check_output("--fields", options.fields, displacement_files(options.places.front()));
-  }
-  if (!is_csv) {
     const Frames frames(options.places.front(), options.strain_column, options.units, options.neighbourhood);
-    if (frames.kind() == FrameKind::elements && polargrain::band::is_of_space(frames.file(0)))
-      return band_in_space(frames, options);
+    const bool in_space =
+        frames.kind() == FrameKind::elements && polargrain::band::is_of_space(frames.file(0));
+    check_table("--fields", options.fields, displacement_files(options.places.front()),
+                in_space ? "x,y,z,volume," : kBeginning);
+    if (in_space) return band_in_space(frames, options);
   }
   const BandMeasurement measured = is_csv ? measure_band_of_fields(options) : measure_band(options);
   tell_unit(measured, options);

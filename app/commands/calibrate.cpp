@@ -128,14 +128,20 @@ std::vector<ElementResult> run_tests(std::vector<ElementSpecification> tests, co
   }
 }
 
+constexpr const char* kBeginningOfScript = "# found by polargrain calibrate\n";
+
+std::string with_beginning(const std::string& script) {
+  return script.starts_with(kBeginningOfScript) ? script : kBeginningOfScript + script;
+}
+
 /// best.in; of a test with another script best_TEST.in too.
 void write_scripts(const Calibration& calibration, const std::vector<ElementSpecification>& tests,
                    const std::filesystem::path& directory) {
   const std::string& first = tests.front().cells.front().script;
-  write_file(directory / "best.in", first);
+  write_file(directory / "best.in", with_beginning(first));
   for (std::size_t k = 1; k < tests.size(); ++k)
     if (const std::string& script = tests[k].cells.front().script; script != first)
-      write_file(directory / fmt::format("best_{}.in", calibration.test_names[k]), script);
+      write_file(directory / fmt::format("best_{}.in", calibration.test_names[k]), with_beginning(script));
 }
 
 /// @param first tell of points that the tests did not reach
@@ -231,25 +237,32 @@ std::string table_of(const Calibration& calibration, const CalibrationResult& re
 }
 
 /// The files of the folder have usual names, which those that it reads may have too. @throws InputError
-void check_folder(const CalibrateOptions& options) {
+void check_folder(const CalibrateOptions& options, const Calibration& calibration) {
   std::vector<std::filesystem::path> inputs =
       files_read_with(coupler::DocumentKind::calibration, options.specification, options.settings);
   inputs.push_back(options.laboratory);
-  const auto refuse = [&](const char* name, const std::string& reason) {
+  const auto refuse = [&](const std::string& name, const std::string& reason) {
     if (!reason.empty()) throw InputError({(options.directory / name).string(), 0, reason});
   };
-  for (const char* const name :
-       {"record.csv", "parameters.csv", "profile.csv", "best.in", "calibration.html"}) {
+  std::vector<std::string> scripts{"best.in"};
+  for (std::size_t k = 1; k < calibration.test_names.size(); ++k)
+    scripts.push_back(fmt::format("best_{}.in", calibration.test_names[k]));
+  std::vector<std::string> names{"record.csv", "parameters.csv", "profile.csv", "calibration.html"};
+  names.insert(names.end(), scripts.begin(), scripts.end());
+  for (const std::string& name : names) {
     const std::string reason = why_not_over(options.directory / name, inputs);
     refuse(name, reason.empty() ? reason : reason + ", or another folder with -o");
   }
   const std::string remedy = "name another folder with -o, or remove it";
+  const auto keep_others = [&](const std::string& name, const char* beginning, const char* what) {
+    const std::string reason = why_not_own(options.directory / name, beginning, what);
+    refuse(name, reason.empty() ? reason : reason + "; " + remedy);
+  };
   for (const auto& [name, beginning] : {std::pair{"record.csv", kBeginningOfRecord},
                                         {"parameters.csv", "parameter,"},
-                                        {"profile.csv", "held,"}}) {
-    const std::string reason = why_not_own(options.directory / name, beginning, "table of this command");
-    refuse(name, reason.empty() ? reason : reason + "; " + remedy);
-  }
+                                        {"profile.csv", "held,"}})
+    keep_others(name, beginning, "table of this command");
+  for (const std::string& name : scripts) keep_others(name, kBeginningOfScript, "script of this command");
   refuse("calibration.html", why_no_page(options.directory / "calibration.html", remedy));
 }
 
@@ -264,8 +277,8 @@ Calibration read_and_make_packings(const CalibrateOptions& options, const Packin
     return read_calibration(options.laboratory, options.specification, options.settings, options.scripts,
                             packings_of);
   };
-  read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); });
-  check_folder(options);
+  check_folder(options,
+               read([&scratch](const MadePackings& asked) { return stand_ins(asked, scratch.path()); }));
   return read([&](const MadePackings& asked) {
     return make_packings(asked, options.packings, tools, [&options](const std::string& line) {
       if (!options.quiet) tell(stderr, "{}\n", line);

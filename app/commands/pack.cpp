@@ -27,6 +27,17 @@
 namespace polargrain::app {
 namespace {
 
+/// Whether there is a file of this name that is no packing.
+bool is_another_than_a_packing(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0) return false;
+  try {
+    read_packing_file(file);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 /// @throws InputError unless a packing can be written there, and is not made from a file of this name
 void check_packing_output(const PackOptions& options) {
   if (options.output.extension() != ".h5")
@@ -36,6 +47,12 @@ void check_packing_output(const PackOptions& options) {
                options.settle.empty() ? files_read_with(coupler::DocumentKind::packing,
                                                         options.specification_file, options.settings)
                                       : options.settle);
+  if (is_another_than_a_packing(options.output))
+    throw InputError(
+        {"", 0,
+         fmt::format("-o {}: this file is there and is no packing; name another file to write, or "
+                     "remove this one",
+                     plain_text(options.output.string()))});
 }
 
 /// Whether there is a file of this name that is no earlier export of a packing.

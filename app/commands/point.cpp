@@ -169,7 +169,7 @@ void check_outputs(const PointOptions& options) {
   std::vector<std::filesystem::path> inputs =
       files_read_with(coupler::DocumentKind::problem, options.case_file, options.settings);
   inputs.push_back(options.path_file);
-  check_output("-o", options.output, inputs);
+  check_table("-o", options.output, inputs, "increment,s11,");
   std::error_code error;  // of a folder that does not exist yet
   const bool has_files = std::filesystem::is_directory(options.replay, error) &&
                          !std::filesystem::is_empty(options.replay, error);

@@ -31,9 +31,10 @@ Command add_safety(CLI::App& program, const Grains& grains) {
   add_trust(command, options->scripts, grains);
   return {&command, [options] {
             // Before a search that takes long.
-            check_output(
+            check_table(
                 "-o", options->file,
-                files_read_with(coupler::DocumentKind::problem, options->case_file, options->settings));
+                files_read_with(coupler::DocumentKind::problem, options->case_file, options->settings),
+                "factor,stands,");
             return safety(*options);
           }};
 }

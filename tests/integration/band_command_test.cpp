@@ -151,6 +151,13 @@ void expect_tanh_band(const std::string& json) {
 TEST(BandCommand, MeasuresOneFieldOfImageCorrelation) {
   const Scratch scratch("band_images");
   write(scratch.path() / "field.csv", correlation(0.004, false));
+  write(scratch.path() / "notes.csv", "x,y,reading\n1,2,3\n");
+  const Outcome refused =
+      run_in(scratch.path(), std::string(POLARGRAIN) + " band field.csv --fields notes.csv");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("--fields notes.csv: this file is there and is no table of this command"),
+            std::string::npos)
+      << refused.errors;
   const Outcome outcome =
       run_in(scratch.path(), std::string(POLARGRAIN) + " band field.csv --fields samples.csv");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;

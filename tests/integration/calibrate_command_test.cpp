@@ -75,7 +75,9 @@ TEST_F(Calibrate, FindsTheParametersThatTheCurveWasMadeWith) {
   }
   EXPECT_LE(table.numbers("low_95")[0], kYoung);
   EXPECT_GE(table.numbers("high_95")[0], kYoung);
-  EXPECT_NE(content(scratch.path() / "out/best.in").find("variable limit equal 0.5"), std::string::npos);
+  const std::string best = content(scratch.path() / "out/best.in");
+  EXPECT_NE(best.find("variable limit equal 0.5"), std::string::npos);
+  EXPECT_TRUE(best.starts_with("# found by polargrain calibrate\n")) << "a later run knows it by this line";
   const std::string page = content(scratch.path() / "out/calibration.html");
   EXPECT_NE(page.find("laboratory"), std::string::npos);
   EXPECT_NE(page.find("<th>95 % from</th>"), std::string::npos);

@@ -66,11 +66,19 @@ TEST_F(KeptFiles, ATableIsNotWrittenOverTheCase) {
   expect_refused("check case.yaml --picture case.yaml", "--picture case.yaml: the command reads this file");
 }
 
-TEST_F(KeptFiles, AnOlderTableIsWrittenAnew) {
-  write(at("out.csv"), "an older table\n");
-  const Outcome outcome = polargrain("point case.yaml soil path.csv -o out.csv");
-  EXPECT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_NE(content(at("out.csv")).find("increment,s11"), std::string::npos);
+TEST_F(KeptFiles, ATableTakesThePlaceOfAnOlderOneAlone) {
+  for (const std::string command : {"point case.yaml soil path.csv", "safety case.yaml"}) {
+    write(at("out.csv"), "day,reading\n1,2\n");
+    expect_refused(
+        command + " -o out.csv",
+        "-o out.csv: this file is there and is no table of this command; name another file to write");
+    std::filesystem::remove(at("out.csv"));
+    for (int times = 0; times < 2; ++times) {
+      const Outcome outcome = polargrain(command + " -o out.csv");
+      EXPECT_EQ(outcome.status, 0) << "an older table is replaced: " << outcome.errors;
+    }
+    EXPECT_EQ(content(at("out.csv")).find("day"), std::string::npos);
+  }
 }
 
 TEST_F(KeptFiles, APackingIsNotWrittenOverWhatItIsMadeFrom) {
@@ -84,6 +92,15 @@ TEST_F(KeptFiles, APackingIsNotWrittenOverWhatItIsMadeFrom) {
                  "-o packing.h5: the command reads this file");
   for (int times = 0; times < 2; ++times)
     EXPECT_EQ(polargrain("pack packing.h5 --export packing.data").status, 0) << "an older export is replaced";
+}
+
+TEST_F(KeptFiles, APackingTakesThePlaceOfAnOlderOneAlone) {
+  write(at("images.h5"), "\x89HDF\r\n\x1a\nimages of a test");
+  expect_refused("pack packing.yaml -o images.h5 --quiet",
+                 "-o images.h5: this file is there and is no packing; name another file to write, or remove");
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(polargrain("pack packing.yaml -o packing.h5 --quiet").status, 0)
+        << "an older packing is replaced";
 }
 
 TEST_F(KeptFiles, APageIsNotWrittenOverAResult) {
@@ -168,7 +185,8 @@ TEST_F(KeptFiles, ACalibrationTakesThePlaceOfAnOlderOneAlone) {
   for (const auto& [name, what] : {std::pair{"calibration.html", "page of polargrain"},
                                    {"parameters.csv", "table of this command"},
                                    {"profile.csv", "table of this command"},
-                                   {"record.csv", "table of this command"}}) {
+                                   {"record.csv", "table of this command"},
+                                   {"best.in", "script of this command"}}) {
     write(at(std::string("fit/") + name), "my notes\n");
     expect_refused("calibrate lab.csv spec.yaml -o fit",
                    "fit/" + std::string(name) + ": this file is there and is no " + what + kOtherFolder);
