@@ -15,7 +15,7 @@
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/document.hpp"
 #include "coupler/case/document_kind.hpp"
-#include "coupler/case/script_dimension.hpp"
+#include "coupler/case/script_scene.hpp"
 #include "coupler/case/section.hpp"
 
 namespace polargrain::app {
@@ -159,9 +159,9 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
   specification.loop = loop == "engine" ? CellLoop::engine : CellLoop::automatic;
 }
 
-void require_dimension(const PackingSpecification& specification, coupler::Faults& faults) {
+void require_scene(const PackingSpecification& specification, coupler::Faults& faults) {
   const coupler::Faults other =
-      coupler::dimension_faults(specification.script, specification.script_file, specification.dimension);
+      coupler::scene_faults(specification.script, specification.script_file, specification.dimension);
   faults.insert(faults.end(), other.begin(), other.end());
 }
 
@@ -269,7 +269,7 @@ PackingSpecification read_packing_specification(const std::filesystem::path& fil
   coupler::CellScript script = read_cell_script("script", top, faults, files);
   specification.script_file = std::move(script.file);
   specification.script = std::move(script.text);
-  require_dimension(specification, faults);
+  require_scene(specification, faults);
   specification.contact_library = coupler::read_contact_library(top, files);
   top.finish();
   doubt_numbers(document, specification, faults);
@@ -307,7 +307,7 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   specification.script_file = file->lexically_normal().string();
   specification.script = coupler::text_of_script(*file);
   faults = script_faults(specification.script, specification.script_file, scripts);
-  require_dimension(specification, faults);
+  require_scene(specification, faults);
   if (!faults.empty()) throw InputError(faults);
   specification.text =
       text + fmt::format("# settled under {} at {:.6g} Pa\n", script.string(), specification.pressure);

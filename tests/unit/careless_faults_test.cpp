@@ -22,7 +22,12 @@ std::string faults_of(const std::string& text, bool packing) {
   const Scratch scratch("careless_faults");
   const std::filesystem::path& at = scratch.path();
   write(at / "case.yaml", text);
-  write(at / "cell.in", content(source + "/liggghts_inputs/cells/hooke_radii.in"));
+  const std::string script = content(source + "/liggghts_inputs/cells/hooke_radii.in");
+  write(at / "cell.in", script);
+  write(at / "cgs.in", replaced(script, "units           si", "units           cgs"));
+  write(at / "open.in", replaced(script, "boundary        p p p", "boundary        f p p"));
+  write(at / "same.in",
+        replaced(replaced(script, "units           si", "units si # not cgs"), "p p p", "pp p p"));
   write(at / "spheres.in", content(source + "/liggghts_inputs/cells/spheres_hooke_radii.in"));
   std::filesystem::copy_file(source + "/cases/footing_cells/packing100.h5", at / "grains.h5");
   try {
@@ -71,6 +76,13 @@ INSTANTIATE_TEST_SUITE_P(
               "a boundary would run into its elements like a hammer"},
         Fault{"ScriptForSpheres", kGrains, "script: cell.in", "script: spheres.in",
               "the script is for spheres in space (dimension 3), and the packing is one of discs in a plane"},
+        Fault{"ScriptInCentimetres", kGrains, "script: cell.in", "script: cgs.in",
+              "cgs.in:7: the script is in units cgs, and a cell is in SI; write 'units si'"},
+        Fault{"PackingInCentimetres", kPacking, "script: cell.in", "script: cgs.in",
+              "cgs.in:7: the script is in units cgs"},
+        Fault{
+            "ScriptThatIsNotPeriodic", kGrains, "script: cell.in", "script: open.in",
+            "open.in:11: the box of a cell is periodic in all directions, and the script has 'boundary f p p'"},
         Fault{"MohrCoulomb", kGround, "model: elastoplastic", "model: mohr_coulomb",
               "did you mean 'elastoplastic'?"},
         Fault{"DirectionByLetter", kGround, "fix: [u1, u2]", "fix: [u1, uy]", "did you mean 'u2'?"},
@@ -91,6 +103,7 @@ TEST(CarelessFaults, WhatIsRightHasNone) {
   EXPECT_EQ(faults_of(kGround, false), "no fault");
   EXPECT_EQ(faults_of(replaced(kGround, "lc: 20 cm", "lc: 0"), false), "no fault");
   EXPECT_EQ(faults_of(kPacking, true), "no fault");
+  EXPECT_EQ(faults_of(replaced(kGrains, "script: cell.in", "script: same.in"), false), "no fault");
   EXPECT_EQ(faults_of("---\n" + kGrains + "...\n# the end\n", false), "no fault");
   EXPECT_EQ(faults_of(replaced(kGrains, "100 kPa}", "100 kN/m2}"), false), "no fault");
 }

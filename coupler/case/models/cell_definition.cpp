@@ -11,7 +11,7 @@
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_length.hpp"
 #include "coupler/case/models/cell_control_keys.hpp"
-#include "coupler/case/script_dimension.hpp"
+#include "coupler/case/script_scene.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -133,7 +133,7 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
       const Faults other =
-          dimension_faults(definition.script, definition.script_file, definition.packing.dimension);
+          scene_faults(definition.script, definition.script_file, definition.packing.dimension);
       faults.insert(faults.end(), other.begin(), other.end());
       if (files.dimension == 3 && definition.packing.dimension != 3)
         section.fault("packing", "packing: elements in space need spheres, and this packing is of discs");
