@@ -119,10 +119,9 @@ inline WorkerKills kill_workers(Beside& run, const std::filesystem::path& histor
     if (workers.empty()) continue;
     const pid_t worker = workers[generator() % workers.size()];
     hit.insert(worker);
-    if (kill(worker, SIGKILL) != 0) continue;
-    ++done.sent;
     // A process whose end has been asked for ends when it has the processor next: others may go on for steps by then.
-    while (is_alive(worker) && run.running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!kill_and_await_end(worker)) continue;
+    ++done.sent;
     if (rows_of(history) + 1 < rows) ++done.before_last_step;
   }
   return done;

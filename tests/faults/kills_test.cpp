@@ -42,7 +42,7 @@ TEST_F(KillsTest, AHundredKilledWorkersChangeNothing) {
               << ", cells that went to another worker " << count_of("its cell goes to another worker", log())
               << '\n';
     // Nobody notices a worker that is killed behind the last cell.
-    EXPECT_GE(told, done.before_last_step);
+    EXPECT_GE(told, done.before_last_step) << log();
     EXPECT_LE(told, kills);
   }
   EXPECT_EQ(kills, 100);

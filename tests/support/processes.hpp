@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <poll.h>
+#include <signal.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -21,14 +26,16 @@ inline std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-/// Whether a process has not ended; one that its parent has not asked about has.
-inline bool is_alive(pid_t process) {
-  std::ifstream in("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(in, text);
-  const std::size_t name_end = text.rfind(')');  // of the program, which may hold anything
-  return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] != 'Z' &&
-         text[name_end + 2] != 'X';
+/// Kills a process and waits until the last of its threads has ended: before that its parent cannot notice.
+/// @returns whether there was such a process
+inline bool kill_and_await_end(pid_t process) {
+  const int end = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  if (end < 0) return false;
+  const bool sent = kill(process, SIGKILL) == 0;
+  pollfd watched{end, POLLIN, 0};
+  while (sent && poll(&watched, 1, -1) < 0 && errno == EINTR) continue;
+  close(end);
+  return sent;
 }
 
 }  // namespace polargrain::testing
