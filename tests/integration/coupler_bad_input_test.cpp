@@ -173,6 +173,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than in "
                  "the pair before, 1; found 1"},
         BadInput{
+            "TimeThatIsNone", "pressure: 100 kPa", "pressure: [[0, 0], [abc, 1], [0.5, 1 kPa]]",
+            "case.yaml:15: boundary item 4: pressure: expected a number without a unit (% is allowed), found 'abc'"},
+        BadInput{
+            "TimesOutOfOrderBesideAFault", "pressure: 100 kPa",
+            "pressure: [[0, 0], [1 parsec, 1], [0, 1 kPa]]",
+            "case.yaml:15: boundary item 4: pressure: expected a number without a unit (% is allowed), found '1 parsec'\n"
+            "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than in "
+            "the pair before, 0; found 0"},
+        BadInput{
             "TableWithoutPairs", "{u2: -4 mm}", "{u2: [0, -4 mm]}",
             "case.yaml:14: boundary item 3: move: u2: expected a pair of values, such as [0, 1], found '0'\n"
             "case.yaml:14: boundary item 3: move: u2: expected a pair of values, such as [0, 1], found "
