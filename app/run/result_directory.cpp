@@ -153,7 +153,14 @@ bool is_of_a_run(const fs::path& file, const fs::path& directory) {
          std::ranges::count(folders_of_a_run(), name, &FolderOfARun::name) > 0;
 }
 
-std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& directory, bool resume) try {
+FormerRun former_run_in(const fs::path& directory) {
+  struct stat log {};
+  if (stat((directory / "run.log").c_str(), &log) != 0) return {};
+  return {log.st_ino, log.st_mtim.tv_sec, log.st_mtim.tv_nsec, log.st_size};
+}
+
+std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& directory, bool resume,
+                                                        const FormerRun& known) try {
   const std::string name = directory.string();
   if (fs::exists(directory) && !fs::is_directory(directory)) {
     throw InputError({name, 0, "is a file, so no result directory; give another with -o DIR"});
@@ -175,6 +182,10 @@ std::unique_ptr<DirectoryLock> prepare_result_directory(const fs::path& director
   }
   fs::create_directories(directory);
   auto lock = std::make_unique<DirectoryLock>(directory);
+  if (former_run_in(directory) != known)
+    throw InputError({name, 0,
+                      "another run has been at work in this directory since this one began, and its results "
+                      "are left alone; give another directory with -o DIR, or run again to replace them"});
   if (access(directory.c_str(), W_OK) != 0) {
     throw fs::filesystem_error("", std::error_code(errno, std::generic_category()));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -39,14 +40,25 @@ class DirectoryLock {
   int descriptor_;
 };
 
+/// The run that has been at work in a directory, by its log, which every run writes: none, that one, or another one.
+struct FormerRun {
+  std::uint64_t file = 0;
+  std::int64_t seconds = 0;  ///< of its last line, with the next
+  std::int64_t nanoseconds = 0;
+  std::int64_t size = 0;
+  bool operator==(const FormerRun&) const = default;
+};
+FormerRun former_run_in(const std::filesystem::path& directory);
+
 /// Makes the directory, locks it, and empties it of the files of a former run, known by their names. Anything else stays, also in
 /// its folders, and a report.html that is no page of polargrain. A former checkpoint is kept once, as checkpoint.old.h5. To
 /// resume: leaves all as it is.
+/// @param known what was there when this run began: of two runs that begin together the later one stops
 /// @throws InputError when it exists, is not empty and holds no former result (summary.json, run.log or a
 /// checkpoint): nothing of the user's own is ever mixed with results; when another run is at work in it; to
 /// resume, when it holds no run. RunError when it cannot be made or written.
 [[nodiscard]] std::unique_ptr<DirectoryLock> prepare_result_directory(const std::filesystem::path& directory,
-                                                                      bool resume);
+                                                                      bool resume, const FormerRun& known);
 
 /// Whether a file is, or would be, one of those that a run writes into its result directory, or lies in a folder of them:
 /// report.html and the files of `band` are not of them.

@@ -594,6 +594,9 @@ int go(const RunOptions& options, coupler::Case the_case, const std::filesystem:
 
 int run(const RunOptions& options) {
   note_interrupts();  // first of all: from here on nobody is ended without a word
+  const std::filesystem::path directory =
+      options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
+  const FormerRun known = former_run_in(directory);
   coupler::Case the_case = coupler::read_case(options.case_file, options.settings, options.scripts);
   if (options.workers < 1 && options.listen.empty() && the_case.needs_workers()) {
     throw InputError(
@@ -605,11 +608,9 @@ int run(const RunOptions& options) {
     listening = coupler::Listening{options.listen, coupler::read_coordinator_keys(options.keys)};
   stop_if_interrupted("before anything was written");
   Remarks remarks = remarks_before(options, the_case);
-  const std::filesystem::path directory =
-      options.directory.empty() ? default_result_directory(options.case_file) : options.directory;
   check_sources_are_elsewhere(options, the_case, directory);
   stop_if_interrupted("before anything was written");
-  const auto lock = prepare_result_directory(directory, options.resume);
+  const auto lock = prepare_result_directory(directory, options.resume, known);
   std::unique_ptr<coupler::Checkpoint> from;
   if (options.resume) from = checkpoint_for(the_case, directory / kCheckpointFile);
   stop_if_interrupted("before its first step");

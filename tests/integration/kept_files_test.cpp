@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // No command writes over a file that it reads: what a user types by mistake costs no work.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <future>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/integration/command.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace polargrain::testing {
 namespace {
@@ -257,6 +262,37 @@ TEST_F(KeptFiles, ARunErasesFilesOfAFormerOneAlone) {
   for (const std::string& name : former) EXPECT_FALSE(std::filesystem::exists(at("out/" + name))) << name;
   EXPECT_FALSE(std::filesystem::exists(at("out/grains/point-4"))) << "an empty folder of a run goes";
   EXPECT_TRUE(std::filesystem::exists(at("out/fields/step-00001.vtu")));
+}
+
+// Two runs that begin together: the one that comes later waits for the other, and would then erase what that has written.
+TEST_F(KeptFiles, ARunDoesNotReplaceOneThatHasWorkedBesideIt) {
+  ASSERT_EQ(polargrain("run case.yaml -o out --quiet").status, 0);
+  const std::filesystem::path out = std::filesystem::canonical(at("out"));
+  const int other = open(out.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  auto run = std::async(std::launch::async, [this] {
+    return run_in(scratch_.path(), "echo $$ > pid.part && mv pid.part pid && exec " FAKE_POLARGRAIN
+                                   " run case.yaml -o out --quiet");
+  });
+  const auto waits_for_its_turn = [&] {
+    std::error_code error;  // of a process that does not run yet, or no more
+    const std::string process = content(at("pid"));
+    const std::filesystem::path files = "/proc/" + process.substr(0, process.find('\n')) + "/fd";
+    for (auto file = std::filesystem::directory_iterator(files, error);
+         file != std::filesystem::directory_iterator(); file.increment(error))
+      if (std::filesystem::read_symlink(file->path(), error) == out) return true;
+    return false;
+  };
+  EXPECT_TRUE(eventually(waits_for_its_turn));
+  write(at("out/run.log"), "of the other run\n");
+  close(other);
+  const Outcome outcome = run.get();
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("out: another run has been at work in this directory since this one began"),
+            std::string::npos)
+      << outcome.errors;
+  EXPECT_EQ(content(at("out/run.log")), "of the other run\n");
+  EXPECT_EQ(polargrain("run case.yaml -o out --quiet").status, 0) << "a run of before is replaced";
 }
 
 TEST_F(KeptFiles, ARunErasesThePageOfAFormerOne) {
