@@ -19,6 +19,7 @@
 #include "common/trial.hpp"
 #include "fem/element/kinematics.hpp"
 #include "fem/mesh/gmsh_content.hpp"
+#include "fem/mesh/gmsh_tags.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -362,6 +363,8 @@ GmshContent read_gmsh_content(const std::filesystem::path& file,
     throw InputError(Fault{file.string(), 0, fmt::format("the mesh is damaged: {}", error.what())});
   }
   read(file.c_str(), &content);
+  if (content.error.empty())
+    if (const auto fault = entity_of_several_groups(file)) throw InputError(*fault);
   return content;
 }
 

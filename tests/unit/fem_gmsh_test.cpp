@@ -93,6 +93,24 @@ TEST(gmsh, says_what_is_wrong_with_a_file) {
   EXPECT_NE(fault_of(head + "0\n$EndNodes\n").find("no surface elements"), std::string::npos);
 }
 
+// Two squares. Groups of version 2 are those of elements, and Gmsh's library makes them those of whole surfaces.
+TEST(gmsh, groups_that_share_a_surface_are_told) {
+  const std::string head =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"ground\"\n2 6 \"part\"\n"
+      "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n$Elements\n";
+  const auto fault = [&head](const std::string& elements) {
+    return fault_of(head + elements + "$EndElements\n");
+  };
+  const std::string part = "of its elements in surface 1 only some are in physical group 6";
+  EXPECT_NE(fault("2\n1 3 2 1 1 1 2 3 4\n2 3 2 6 1 2 5 6 3\n").find("in surface 1 only some"),
+            std::string::npos);
+  EXPECT_EQ(fault("2\n1 3 2 1 1 1 2 3 4\n2 3 2 6 2 2 5 6 3\n"), "no fault");
+  EXPECT_NE(fault("3\n1 3 2 1 1 1 2 3 4\n2 3 2 1 1 2 5 6 3\n3 3 2 6 1 1 2 3 4\n").find(part),
+            std::string::npos);
+  EXPECT_EQ(fault("3\n1 3 2 1 1 1 2 3 4\n2 3 2 1 2 2 5 6 3\n3 3 2 6 1 1 2 3 4\n"), "no fault");
+  EXPECT_NE(fault("2\n1 3 2 6 1 1 2 3 4\n2 3 2 0 1 2 5 6 3\n").find(part), std::string::npos);  // in no group
+}
+
 // Gmsh's own language runs programs, and Gmsh reads it where nobody expects it: in a mesh that begins as a script, and in
 // NAME.msh.opt beside NAME.msh.
 TEST(gmsh, runs_no_script_that_comes_with_a_mesh) {
