@@ -108,10 +108,14 @@ std::vector<Increment<2>> path_for(const coupler::Case& the_case, const std::fil
   return path;
 }
 
+void tell_notes(fem::Material<2>& material) {
+  for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
+}
+
 /// @returns whether every increment was answered
 bool follow(fem::Material<2>& material, const std::vector<Increment<2>>& path, AnswerTable& table) {
   material.allocate(1);
-  for (const std::string& note : material.take_notes()) tell(stderr, "note: {}\n", note);
+  tell_notes(material);
   std::vector<double> fields(material.field_names().size());
   std::size_t unreliable = 0;
   for (std::size_t i = 0; i <= path.size(); ++i) {
@@ -122,6 +126,7 @@ bool follow(fem::Material<2>& material, const std::vector<Increment<2>>& path, A
       material.commit();
       material.fields(0, fields);
     }
+    tell_notes(material);
     table.answer(i, response, fields);
     if (response.quality == Quality::unreliable) ++unreliable;
     if (response.quality == Quality::failed) {

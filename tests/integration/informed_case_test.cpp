@@ -102,6 +102,22 @@ TEST_F(InformedCaseTest, AnyNumberOfWorkersWritesTheSameHistory) {
   }
 }
 
+TEST_F(InformedCaseTest, APointTellsThatTheLawHasLeftItsCell) {
+  write(directory() / "path.csv", "h22\n-1e-3\n-1e-3\n");
+  const std::string left = "note: the law has left its cell at 1 of 1 points";
+  const std::string point = "point case.yaml sand path.csv -o out.csv";
+  const Outcome near = polargrain(point);
+  EXPECT_EQ(near.status, 0) << near.errors;
+  EXPECT_EQ(near.errors.find(left), std::string::npos) << near.errors;
+  // A law ten times as soft as its cell.
+  const Outcome far =
+      polargrain(point + " --set materials.sand.informed.cohesion='1 MPa' --set materials.sand.G='4 MPa'");
+  EXPECT_EQ(far.status, 0) << far.errors;
+  const std::size_t told = far.errors.find(left);
+  EXPECT_NE(told, std::string::npos) << far.errors;
+  EXPECT_EQ(far.errors.rfind(left), told) << "once: " << far.errors;
+}
+
 TEST_F(InformedCaseTest, AKeyOfASchemeStandsInTheMapOfItsName) {
   for (const char* model : {"informed", "cell"}) {
     const Outcome outcome =
