@@ -27,6 +27,12 @@ bool can_be_taken_over(const std::string& model) {
   return model == "elastic" || model == "elastoplastic" || model == "cell";
 }
 
+/// Of the grains of a material with cells; boxes of either kind answer to stresses that those of the other do not know.
+std::string rotations_of(const CaseIdentity& identity, const std::string& material) {
+  const auto value = identity.values.find(material + "rotations");
+  return value == identity.values.end() ? "free" : value->second;
+}
+
 /// Compares each region with the one of its name there.
 void check_materials(const Entry& start, const CaseIdentity& before, const CaseIdentity& now,
                      const std::string& run, CaseParts& parts) {
@@ -62,6 +68,11 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
           model));
     } else if (value_of(now.files, key + "packing") != value_of(before.files, key_before + "packing")) {
       fault(fmt::format("its boxes are of another packing in '{}'; name the packing of that run", run));
+    } else if (rotations_of(now, key) != rotations_of(before, key_before)) {
+      fault(fmt::format(
+          "the rotations of its grains are {} in '{}' and {} here; a box goes over to the same alone: set "
+          "'rotations: {}'",
+          rotations_of(before, key_before), run, rotations_of(now, key), rotations_of(before, key_before)));
     }
   }
 }

@@ -198,6 +198,41 @@ TEST_F(ProfilesCase, TheBodyOfTheRunBeforeIsCompared) {
       "same mesh alone: use its mesh, or 'place' what is new in a stage");
 }
 
+TEST_F(ProfilesCase, BoxesGoOverToTheSameRotationsOfGrains) {
+  std::ofstream(directory() / "cell.in") << "\n";
+  std::ofstream(directory() / "grains.csv")
+      << "# cell xx=0.1 xy=0 yx=0 yy=0.1 z=0.1\nid,x,y,r,mass,Izz\n1,0.05,0.05,0.04,1.0,8e-4\n";
+  const auto with = [](const std::string& keys) {
+    std::string text = kCaseOfProfilesCase;
+    const auto change = [&](const std::string& good, const std::string& bad) {
+      text.replace(text.find(good), good.size(), bad);
+    };
+    change("continuum: cauchy", "continuum: cosserat");
+    change("model: elastic, E: 20 MPa, nu: 0.3",
+           "model: cell, script: cell.in, packing: grains.csv, " + keys);
+    return text;
+  };
+  const std::string part = "G: 40 MPa, Gc: 10 MPa, lc: 20 mm";
+  const std::string free = with(part);
+  const std::string controlled = with("rotations: controlled");
+  const auto fault_behind = [&](const std::string& before, const std::string& now) {
+    std::ofstream(directory() / "before.yaml") << before;
+    end_.identity = identity_of(load_document(directory() / "before.yaml"), directory());
+    keep();
+    return fault(kCaseOfProfilesCase, now);
+  };
+  EXPECT_EQ(
+      fault_behind(free, controlled),
+      "15: start_from: region 'all': the rotations of its grains are free in 'first' and controlled here; a box goes over "
+      "to the same alone: set 'rotations: free'");
+  EXPECT_EQ(
+      fault_behind(controlled, free),
+      "15: start_from: region 'all': the rotations of its grains are controlled in 'first' and free here; a box goes over "
+      "to the same alone: set 'rotations: controlled'");
+  EXPECT_EQ(fault_behind(free, with("rotations: free, " + part)), "no fault");
+  EXPECT_EQ(fault_behind(controlled, controlled), "no fault");
+}
+
 TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {
   EXPECT_EQ(
       fault("start_from: first", "start_from: frist"),
