@@ -11,6 +11,7 @@ from .arrays import real_array
 from .engines import shared_engines
 from .errors import InputError, StepFailed
 from .program import data_file
+from .state import State
 
 _PLANE = [0, 1, 3, 4, 11, 14]  # places of s11 s12 s21 s22 m13 m23 among the eighteen
 _NINE = [f"{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
@@ -37,7 +38,7 @@ class Answer:
                      their units and meanings
     """
 
-    def __init__(self, reply, dimension):
+    def __init__(self, reply, dimension, packing):
         self.stress = reply.stress
         self.couple_stress = reply.couple_stress
         self.tangent = reply.tangent
@@ -47,7 +48,7 @@ class Answer:
             self.tangent = self.tangent[np.ix_(_PLANE, _PLANE)]
         for values in (self.stress, self.couple_stress, self.tangent):
             values.flags.writeable = False  # several who ask may hold the one answer of a packing at rest
-        self.state = reply.state
+        self.state = State(reply.state, packing) if reply.state is not None else None
         self.quality = reply.quality
         self.message = reply.message
         self.step_factor = reply.step_factor
@@ -108,6 +109,7 @@ class Cell:
         self._lock = threading.RLock()  # held from reading where the cell is to being elsewhere
         self.dimension = self._definition.packing.dimension
         self.components = [_NAMES[place] for place in (_PLANE if self.dimension == 2 else range(18))]
+        self._packing_name = self.packing.name
         self._state = None
         self._answer = None
 
@@ -142,10 +144,9 @@ class Cell:
 
     @state.setter
     def state(self, state):
-        if not isinstance(state, _cells.State):
-            raise TypeError(f"a State is expected, such as Cell.state gives; this is {state!r}")
+        own = self._own(state)
         with self._lock:
-            self._state = state
+            self._state = own
             self._answer = None
 
     @property
@@ -176,7 +177,7 @@ class Cell:
         Raises RunError when no worker can answer.
         """
         question = self._question(F, rotation, curvature, displacement_gradient, state)
-        return Answer(self._engines._cells.evaluate([question])[0], self.dimension)
+        return self._answer_of(self._engines._cells.evaluate([question])[0])
 
     def step(self, F=None, rotation=None, curvature=None, *, displacement_gradient=None):
         """The same, and goes there. Returns the Answer, whose quality is "good".
@@ -195,7 +196,7 @@ class Cell:
 
     def _ask_initial(self):
         if not hasattr(self, "_initial"):
-            self._initial = Answer(self._engines._cells.initial(self._definition), self.dimension)
+            self._initial = self._answer_of(self._engines._cells.initial(self._definition))
         return self._initial
 
     def _question(self, F, rotation, curvature, displacement_gradient, state=None):
@@ -220,7 +221,20 @@ class Cell:
         if not self._definition.has_controlled_rotations and (np.any(w) or np.any(k)):
             raise InputError("the rotations of this cell are free: it feels neither rotation nor curvature; make it "
                              "with rotations=\"controlled\", or leave them out")
-        return (self._definition, state if state is not None else self._state, h, w, k)
+        start = self._own(state) if state is not None else self._state
+        return (self._definition, start._kept if start is not None else None, h, w, k)
+
+    def _answer_of(self, reply):
+        return Answer(reply, self.dimension, self._packing_name)
+
+    def _own(self, state):
+        """The same state. Raises InputError when it is of other grains: those of the cell would answer, and mean nothing."""
+        if not isinstance(state, State):
+            raise TypeError(f"a State is expected, such as Cell.state gives; this is {state!r}")
+        if state.packing not in ("", self._packing_name):
+            raise InputError(f"this state is of the packing {state.packing}, and the cell is of {self._packing_name} "
+                             "(Packing.name), whose grains are others; give it to a cell of its own packing")
+        return state
 
     def __getstate__(self):
         return {"definition": self._definition, "engines": None if self._engines is shared_engines(False) else self._engines,
@@ -261,7 +275,7 @@ def step_together(cells, gradients, rotations=None, curvatures=None):
         if not questions:
             return []
         replies = cells[0]._engines._cells.evaluate(questions)
-        answers = [_checked(Answer(reply, cell.dimension)) for cell, reply in zip(cells, replies)]
+        answers = [_checked(cell._answer_of(reply)) for cell, reply in zip(cells, replies)]
         return [cell._take(answer) for cell, answer in zip(cells, answers)]
 
 

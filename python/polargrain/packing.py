@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Prepared sets of grains."""
+import hashlib
 import tempfile
+
+import numpy as np
 
 from . import _cells
 from .program import call, data_file
@@ -18,8 +21,18 @@ masses       -- kg; shape (n,)
 pressure     -- mean normal stress at rest when it was made, compression positive, Pa; 0: not recorded
 volume       -- of the box, m^3
 grain_volume -- of the grains, m^3
+name         -- 32 hexadecimal digits; packings of the same grains, wherever they lie, have the same name
 len()        -- number of grains
 """
+
+
+def _name(packing):
+    of_discs = [packing.thickness] if packing.dimension == 2 else []
+    grains = np.concatenate([[packing.dimension], of_discs, packing.radii, packing.masses])
+    return hashlib.blake2b(grains.tobytes(), digest_size=16).hexdigest()
+
+
+Packing.name = property(_name)
 
 
 def read_packing(file):

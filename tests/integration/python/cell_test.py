@@ -167,11 +167,31 @@ class States(InFolder):
         self.assertEqual(answers.get(timeout=600), self.next.tobytes())
         other.join()
 
-    def test_of_other_cells_are_refused(self):
-        other = polargrain.Cell("cases/footing_cells/packing100.h5", SCRIPT)
-        other.state = self.state
-        with self.assertRaises(polargrain.RunError):
-            other.step(shear(1e-3))
+    def test_of_other_packings_are_refused(self):
+        lines = polargrain.program.data_file(PACKING).read_text().splitlines()
+        first = lines[2].split(",")
+        first[3] = str(0.999 * float(first[3]))  # its radius
+        (self.folder / "other.csv").write_text("\n".join([*lines[:2], ",".join(first), *lines[3:]]) + "\n")
+        self.state.save(self.folder / "state")
+        kept = [self.state, polargrain.State.load(self.folder / "state"), pickle.loads(pickle.dumps(self.state))]
+        for packing in ("cases/footing_cells/packing100.h5", self.folder / "other.csv"):
+            other = polargrain.Cell(packing, SCRIPT, rotations="controlled")
+            for state in kept:
+                with self.assertRaisesRegex(polargrain.InputError, f"{self.cell.packing.name}.*{other.packing.name}"):
+                    other.state = state
+                with self.assertRaises(polargrain.InputError):
+                    other.evaluate(shear(1e-3), state=state)
+        self.assertEqual(self.state.packing, self.cell.packing.name)
+
+    def test_are_taken_by_cells_of_the_same_grains(self):
+        lines = polargrain.program.data_file(PACKING).read_text().splitlines()
+        # The numbers of grains are labels.
+        numbered = [f"{1 + int(number)},{rest}" for number, rest in (line.split(",", 1) for line in lines[2:])]
+        (self.folder / "same.csv").write_text("\n".join([*lines[:2], *numbered]) + "\n")
+        same = polargrain.Cell(self.folder / "same.csv", SCRIPT, rotations="controlled")
+        for state in (self.state, polargrain.State.of_bytes(self.state.bytes)):  # the second is of no known packing
+            same.state = state
+            np.testing.assert_array_equal(same.step(shear(1e-3)).vector, self.next)
 
 
 class Threads(InFolder):
