@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -67,7 +68,10 @@ class StagesReader {
       : list_(list), parts_(parts), are_named_(std::ranges::any_of(list.items, has_name)) {}
 
   void read() {
-    if (are_named_) problem_stages() = {"start"};
+    if (are_named_) {
+      problem_stages() = {"start"};
+      stage_starts() = {0.0};
+    }
     for (std::size_t k = 0; k < list_.items.size(); ++k) read_stage(list_.items[k], k);
     place_interfaces_with_beams();
     parts_.now = {};
@@ -77,6 +81,11 @@ class StagesReader {
   std::vector<std::string>& problem_stages() {
     return parts_.result.with_problem(
         [](auto& problem) -> std::vector<std::string>& { return problem.stages; });
+  }
+
+  std::vector<double>& stage_starts() {
+    return parts_.result.with_problem(
+        [](auto& problem) -> std::vector<double>& { return problem.stage_starts; });
   }
 
   void read_stage(const Entry& entry, std::size_t index) {
@@ -97,6 +106,9 @@ class StagesReader {
     if (builds) {
       ++number_;
       problem_stages().push_back(one.name);
+      const bool is_known =
+          before == 0 || parts_.result.plan[before - 1].control == StepTarget::Control::time;
+      stage_starts().push_back(is_known ? start : std::numeric_limits<double>::quiet_NaN());
       for (std::size_t k = before; k < after; ++k)
         parts_.result.plan[k].released =
             static_cast<double>(k + 1 - before) / static_cast<double>(after - before);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -214,6 +215,20 @@ void check_ties(const Problem<dim>& problem, const GivenValues<dim>& given, int 
   }
 }
 
+/// Whether a pressure is zero until a later stage leaves no ground on both sides of where it acts.
+template <int dim>
+bool waits_for_its_side(const Problem<dim>& problem, const BoundaryLoad<dim>& load, int stage) {
+  const auto count = static_cast<int>(problem.stage_starts.size());
+  for (int later = stage + 1; later < count; ++later) {
+    if (!covered_sides(problem.mesh, sides_in_stage(problem, load, later), elements_in_stage(problem, later))
+             .empty())
+      continue;
+    const double begin = problem.stage_starts[static_cast<std::size_t>(later)];
+    return std::isfinite(begin) && load.pressure.largest_magnitude_until(begin) == 0.0;
+  }
+  return false;
+}
+
 /// A pressure that begins with a stage pushes against an outward normal, which a side between two elements has not. Ground that
 /// covers the side later takes the load away.
 template <int dim>
@@ -224,7 +239,7 @@ void check_pressures(const Problem<dim>& problem, int stage, Messages& messages)
       continue;
     const std::vector<BoundarySide> covered =
         covered_sides(problem.mesh, sides_in_stage(problem, load, stage), elements_in_stage(problem, stage));
-    if (covered.empty()) continue;
+    if (covered.empty() || waits_for_its_side(problem, load, stage)) continue;
     const std::vector<int> nodes = problem.mesh.side_nodes(covered.front());
     messages.push_back(fmt::format(
         "the pressure on '{}' has ground on both sides at {}: it has no side to act from; let it begin in the "

@@ -112,6 +112,13 @@ double TimeTable::largest_magnitude() const {
   return largest;
 }
 
+double TimeTable::largest_magnitude_until(double time) const {
+  double largest = std::abs(at(time));
+  for (const Point& point : points_)
+    if (point.time <= time) largest = std::max(largest, std::abs(point.value));
+  return largest;
+}
+
 double TimeTable::largest_change(double time) const {
   const double now = at(time);
   double largest = 0.0;

@@ -27,6 +27,7 @@ class TimeTable {
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
   [[nodiscard]] double largest_magnitude() const;
+  [[nodiscard]] double largest_magnitude_until(double time) const;
   /// Largest magnitude of the change from the value at `time` to any that comes later.
   [[nodiscard]] double largest_change(double time) const;
   /// Whether it has more than one value.

@@ -123,6 +123,13 @@ TEST_F(StagesCase, finds_a_pressure_on_ground_that_is_yet_to_be_dug) {
   EXPECT_NE(found.find("let it begin in the stage that removes one side, or give 'traction'"),
             std::string::npos);
   EXPECT_EQ(fault("  - {on: bottom, fix: [u2]}\n", floor + "traction: {u2: -20 kPa}}\n"), "no fault");
+  // The pit is dug from time 1 on.
+  const auto with_table = [&](const std::string& table) {
+    return fault("  - {on: bottom, fix: [u2]}\n", floor + "pressure: " + table + "}\n");
+  };
+  EXPECT_EQ(with_table("[[0, 0], [1, 0], [2, 20 kPa]]"), "no fault");
+  for (const std::string table : {"[[0, 0], [0.9, 0], [2, 20 kPa]]", "[[0, 0], [0.5, 1 kPa], [1, 0]]"})
+    EXPECT_EQ(with_table(table).substr(0, 30), "13: boundary: the pressure on ") << table;
 }
 
 TEST_F(StagesCase, finds_a_line_that_ends_between_corners) {

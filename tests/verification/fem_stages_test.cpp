@@ -501,6 +501,15 @@ TEST(stage, that_loads_a_curve_inside_of_the_body_is_a_fault) {
   Solver<2> without(std::move(dry), tight());
   go_through(without, 1);
   EXPECT_NEAR(solver.reaction("bottom")(1) - without.reaction("bottom")(1), 4 * 50e3, 1e-4);
+  // The same of a pressure from the start that is zero until the pit is dug.
+  Problem<2> from_start = problem;
+  for (auto& [region, material] : from_start.materials) material = elastic();
+  from_start.stage_starts = {0.0, 0.0, 1.0};
+  from_start.boundary_loads = {{.on = "floor", .pressure = TimeTable({{0.0, 0.0}, {1.0, 0.0}, {2.0, 50e3}})}};
+  EXPECT_EQ(faults(from_start), std::vector<std::string>{});
+  Solver<2> filled(std::move(from_start), tight());
+  go_through(filled, 1);
+  EXPECT_NEAR(filled.reaction("bottom")(1) - without.reaction("bottom")(1), 4 * 50e3, 1e-4);
   // Before the pit is dug, and where nothing is dug at all, ground lies on both sides of the floor.
   const auto is_told = [&](const std::string& stage) {
     const std::vector<std::string> found = faults(problem);
