@@ -104,6 +104,21 @@ steps: {count: 1, tolerance: 1e-8}
 monitors: {force: {on: bottom, reaction: u1}}
 )";
 
+/// Its nodes are its own where an interface lies along it, and else those of the ground.
+const std::string kDowel = R"(title: A dowel through a plane of slip
+continuum: cauchy
+mesh: {rectangle: {size: [4 m, 4 m], elements: [4, 4], lines: {joint: [0, 2 m, 4 m, 2 m], shaft: [2 m, 1 m, 2 m, 3 m]}}}
+materials: {rock: {model: elastic, E: 10 MPa, nu: 0.25}}
+regions: {all: rock}
+beams: {dowel: {on: shaft, EA: 100 MN/m, EI: 10 MNm2/m}}
+interfaces: {slip: {on: joint, friction: 5 deg}, skin: {on: shaft, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa}}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: top, pressure: 10 kPa, move: {u1: 10 mm}}
+steps: {count: 2, tolerance: 1e-8}
+monitors: {shear: {beam: dowel, value: shear}}
+)";
+
 class CarelessMoments : public ::testing::TestWithParam<Careless> {};
 
 /// The base is silent about it, the scene tells.
@@ -158,6 +173,9 @@ INSTANTIATE_TEST_SUITE_P(
             "{on: top_left, node_force",
             "the force on 'top_left' acts on the ground, and not on the wall, whose own node there is in 'sheet_top'",
             Rank::doubtful},
+        Careless{"ADowelThatAPlaneOfSlipCuts", kDowel,
+                 ", skin: {on: shaft, friction: 30 deg, cohesion: 1 GPa, tension: 1 GPa}", "",
+                 "beams: 'dowel' is cut at (2, 2), where an interface crosses it"},
         Careless{"AMomentOnAHeldRotation", kWallInGround,
                  "{on: sheet_top, node_force: {u1: [[0, 0 kN/m], [1, 40 kN/m]]}}",
                  "{on: sheet_top, fix: [w], node_force: {w: [[0, 0 kN], [1, 40 kN]]}}",

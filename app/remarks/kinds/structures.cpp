@@ -210,6 +210,29 @@ void look_at_ends(const Scene& scene, const fem::Problem<2>& problem, Remarks& r
   }
 }
 
+/// An interface parts the ground, and with it a beam whose nodes are those of the ground: one of its ends lies on another.
+void look_at_parted_beams(const Scene& scene, const fem::Problem<2>& problem, Remarks& remarks) {
+  const auto place_of = [&](int node) { return problem.mesh.nodes[static_cast<std::size_t>(node)]; };
+  for (const auto& contribution : problem.contributions) {
+    const auto* const beam = dynamic_cast<const fem::Beam*>(contribution.get());
+    if (beam == nullptr) continue;
+    const std::vector<std::pair<int, int>> ends = ends_of(*beam);
+    const auto parted = std::ranges::find_if(ends, [&](const auto& end) {
+      return std::ranges::any_of(ends, [&](const auto& other) {
+        return other.first != end.first && place_of(other.first) == place_of(end.first);
+      });
+    });
+    if (parted == ends.end()) continue;
+    remarks.push_back(
+        {Rank::wrong, 2.0,
+         scene.place({"beams", beam->short_name()})
+             .fault(fmt::format(
+                 "beams: '{}' is cut at {}, where an interface crosses it: no force and no moment of it passes",
+                 beam->short_name(), fem::place_text<2>(place_of(parted->first)))),
+         "to let it pass, lay an interface along the beam too, which gives it nodes of its own"});
+  }
+}
+
 template <int dim>
 bool holds(const fem::Mesh<dim>& mesh, int element, const typename Cosserat<dim>::Place& place) {
   const auto sides = static_cast<int>(mesh.elements[static_cast<std::size_t>(element)].type->sides.size());
@@ -281,7 +304,10 @@ void look_at_structures(const Scene& scene, const fem::Mesh<dim>& mesh, Remarks&
 void structures(const Scene& scene, Remarks& remarks) {
   scene.with_problem([&](const auto& problem) { look_at_structures(scene, problem.mesh, remarks); });
   // With the supports of all stages: one of a later stage may hold it.
-  if (scene.dimension() == 2) look_at_ends(scene, scene.the_case().problem, remarks);
+  if (scene.dimension() == 2) {
+    look_at_ends(scene, scene.the_case().problem, remarks);
+    look_at_parted_beams(scene, scene.the_case().problem, remarks);
+  }
 }
 
 }  // namespace polargrain::app
