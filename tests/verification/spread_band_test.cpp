@@ -166,31 +166,29 @@ Mesh<2> grid(double size, const char* type, double turned = 0.0) {
   return mesh;
 }
 
+void expect_like(const Outcome& outcome, const Outcome& straight, double degrees, double share_of_thickness,
+                 double share_of_load) {
+  EXPECT_NEAR(outcome.band.inclination, straight.band.inclination, degrees);
+  EXPECT_NEAR(outcome.band.thickness, straight.band.thickness, share_of_thickness * straight.band.thickness);
+  ASSERT_EQ(outcome.loads.size(), straight.loads.size());
+  for (std::size_t k = 0; k < straight.loads.size(); ++k)
+    EXPECT_NEAR(outcome.loads[k], straight.loads[k], share_of_load * straight.loads[k]);
+}
+
+// One test, so that the run on the straight mesh is made once.
 TEST(spread_band, does_not_follow_the_mesh) {
   const Outcome straight = outcome_of(grid(1.25, "Q8R"));
   EXPECT_LE(straight.mean_iterations, 8.0);
   // Sources lie on a staircase of nodes. A kernel with a cusp, (1 - l^2 lap)^-1, made this 1.2 spreads.
   EXPECT_NEAR(straight.band.thickness, kSpread, 0.05 * kSpread);
-  for (const auto& [type, turned] : {std::pair{"Q8R", 20.0}, {"T6", 0.0}, {"T6", 20.0}}) {
+  for (const auto& [type, turned] : {std::pair{"Q8R", 20.0}, {"T6", 20.0}}) {
+    SCOPED_TRACE(type);
     const Outcome outcome = outcome_of(grid(1.25, type, turned));
-    EXPECT_NEAR(outcome.band.inclination, straight.band.inclination, 1.0) << type << turned;
-    EXPECT_NEAR(outcome.band.thickness, straight.band.thickness, 0.06 * straight.band.thickness)
-        << type << turned;
-    EXPECT_LE(outcome.mean_iterations, 8.0) << type << turned;
-    ASSERT_EQ(outcome.loads.size(), straight.loads.size());
-    for (std::size_t k = 0; k < straight.loads.size(); ++k)
-      EXPECT_NEAR(outcome.loads[k], straight.loads[k], 0.02 * straight.loads[k]) << type << turned;
+    expect_like(outcome, straight, 1.0, 0.06, 0.02);
+    EXPECT_LE(outcome.mean_iterations, 8.0);
   }
-}
-
-TEST(spread_band, is_nearly_there_on_elements_of_half_its_thickness) {
-  const Outcome fine = outcome_of(grid(1.25, "Q8R"));
-  const Outcome coarse = outcome_of(grid(2.5, "Q8R"));
-  EXPECT_NEAR(coarse.band.inclination, fine.band.inclination, 2.0);
-  EXPECT_NEAR(coarse.band.thickness, fine.band.thickness, 0.1 * fine.band.thickness);
-  ASSERT_EQ(coarse.loads.size(), fine.loads.size());
-  for (std::size_t k = 0; k < fine.loads.size(); ++k)
-    EXPECT_NEAR(coarse.loads[k], fine.loads[k], 0.04 * fine.loads[k]);
+  SCOPED_TRACE("elements of half its thickness");
+  expect_like(outcome_of(grid(2.5, "Q8R")), straight, 2.0, 0.1, 0.04);
 }
 
 }  // namespace
