@@ -102,6 +102,12 @@ monitors: {u: {on: top, displacement: u2}}
 output: {table: [u]}
 )";
 
+/// Pressures are those in excess, weights submerged ones.
+const std::string kSubmerged = replaced(
+    replaced(replaced(kCarried, ", level: 4 m", ""), ", water_level: [[0 s, 4 m], [10 d, 3.5 m]]", ""),
+    "[{unit_weight: 20 kN/m3}]\ninitial_stress: [{surface: 4 m, unit_weight: 20",
+    "[{unit_weight: 10 kN/m3}]\ninitial_stress: [{surface: 4 m, unit_weight: 10");
+
 /// A layer whose water leaves upwards alone.
 const std::string kClay = R"(title: A column of clay
 continuum: cauchy
@@ -174,6 +180,21 @@ INSTANTIATE_TEST_SUITE_P(
                  replaced(kCarried, "body: [{unit_weight: 20", "body: [{unit_weight: 10.5"),
                  "4 m, unit_weight: 20", "4 m, unit_weight: 10.5",
                  "region 'all' weighs 10.5 kN/m3 below the 'level' of the water", Rank::doubtful},
+        Careless{"SaturatedWeightWithoutALevel",
+                 replaced(kSubmerged, "4 m, unit_weight: 10", "4 m, unit_weight: 20"),
+                 "body: [{unit_weight: 10", "body: [{unit_weight: 20", "the weight must be the submerged one",
+                 Rank::doubtful},
+        // Effective: 20 - 10 kN/m3 given, 16 - 10 kN/m3 weigh.
+        Careless{"LighterGroundBelowWaterThanItsStress", kSea, "body: [{unit_weight: 20",
+                 "body: [{unit_weight: 16",
+                 "region 'all' has 16 kN/m3 below body: below water its effective stress changes by -40 %",
+                 Rank::wrong},
+        Careless{"SubmergedStressBelowALevel", kSea, "4 m, unit_weight: 20", "4 m, unit_weight: 10",
+                 "a unit weight of 10 kN/m3, and region 'all' has 20 kN/m3 below body", Rank::wrong},
+        Careless{"OneLayerOfAPitIsLighter", kPit, "body: [{unit_weight: 20 kN/m3}]",
+                 "body: [{unit_weight: 18 kN/m3, region: layer}, {unit_weight: 20 kN/m3, region: rest}]",
+                 "region 'layer' has 18 kN/m3 below body: below water its effective stress changes by -20 %",
+                 Rank::doubtful},
         // cv = 2.4465e-6 m2/s. Mean pressures behind the first step: 0.459 of the load, by the series 0.358.
         Careless{
             "AFewStepsOfAColumn", kLoadedClay, "count: 30", "count: 3",
@@ -198,15 +219,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Water, OddFeatures,
-    ::testing::Values(Careless{"DugAndDrained", kPit, "", ""}, Careless{"TheSeaAtAQuay", kQuay, "", ""},
-                      Careless{"FillOnASheet", kFillOnASheet, "", ""},
-                      Careless{"AnOldSurcharge", kCarried, "", ""},
-                      Careless{"ManyStepsOfAColumn", kLoadedClay, "", ""},
-                      Careless{"ALoadThatComesSlowly", kClay,
-                               "[1 h, 100 kPa]]}\nsteps: {duration: 470 d, count: 30",
-                               "[450 d, 100 kPa]]}\nsteps: {duration: 470 d, count: 3"},
-                      Careless{"WaterBelowABed", replaced(kDryBed, ", surcharge: 60 kPa", ""), "", ""},
-                      Careless{"BelowTheSea", kSea, "", ""}),
+    ::testing::Values(
+        Careless{"DugAndDrained", kPit, "", ""}, Careless{"TheSeaAtAQuay", kQuay, "", ""},
+        Careless{"FillOnASheet", kFillOnASheet, "", ""}, Careless{"AnOldSurcharge", kCarried, "", ""},
+        Careless{"ManyStepsOfAColumn", kLoadedClay, "", ""},
+        Careless{"ALoadThatComesSlowly", kClay, "[1 h, 100 kPa]]}\nsteps: {duration: 470 d, count: 30",
+                 "[450 d, 100 kPa]]}\nsteps: {duration: 470 d, count: 3"},
+        Careless{"WaterBelowABed", replaced(kDryBed, ", surcharge: 60 kPa", ""), "", ""},
+        Careless{"SubmergedWeightsWithoutALevel", kSubmerged, "", ""}, Careless{"BelowTheSea", kSea, "", ""}),
     [](const auto& info) { return info.param.name; });
 
 // The level is 1 m above the ground: nine nodes of the top are pressed, some 34 units of the drawing or more apart.

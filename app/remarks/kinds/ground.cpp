@@ -162,11 +162,26 @@ void look_at_components(const Entry& item, Remarks& remarks) {
          fmt::format("give s33, for example {:.4g} kPa", 0.5e-3 * (s[0] + s[1]))});
 }
 
+/// Water that carries its part of the weights given, N/m^3: they hold it where it has a level. 0: none, or weights are submerged.
+double water_in_weights(const Scene& scene, const std::string& region) {
+  return scene.with_problem([&](const auto& problem) {
+    const auto* const water = fem::pore_water_of(problem);
+    const bool is_within = water != nullptr && water->options().table && water->regions().contains(region);
+    return is_within ? water->options().unit_weight : 0.0;
+  });
+}
+
+std::ptrdiff_t items_of_weight(const Scene& scene, const std::string& region) {
+  return scene.with_problem([&](const auto& problem) {
+    return std::ranges::count_if(
+        problem.body_loads, [&](const auto& load) { return load.region.empty() || load.region == region; });
+  });
+}
+
 /// The weight that the stress grows by with depth against that of the body: they balance each other.
 void look_at_weights(const Scene& scene, const Entry& list, Remarks& remarks) {
   constexpr double kSlackOfWeights = 0.05;
   constexpr double kFarWeights = 0.3;
-  if (scene.find({"water"}) != nullptr) return;  // then one is that below water, perhaps
   for (const SceneRegion& region : scene.regions()) {
     const Entry* last = nullptr;  // the one that counts: of the region before one of all
     for (const bool is_own : {false, true})
@@ -179,19 +194,27 @@ void look_at_weights(const Scene& scene, const Entry& list, Remarks& remarks) {
     const double given = number(*last, "unit_weight", Dimension::unit_weight).value_or(0.0);
     const double weight = weight_at_start(scene, region.name);
     if (given == 0.0 || weight <= 0.0) continue;
-    const double off = std::abs(given - weight) / std::max(std::abs(given), weight);
+    const double water = water_in_weights(scene, region.name);
+    const double larger = std::max(given, weight);
+    const double off = std::abs(given - weight) / (larger > water ? larger - water : larger);
     const double times = weight / given;
-    const bool is_given_twice =
-        times > 1.5 && std::abs(times - std::round(times)) < 1e-9;  // loads_twice says so
+    const bool is_given_twice = items_of_weight(scene, region.name) > 1 && times > 1.5 &&
+                                std::abs(times - std::round(times)) < 1e-9;  // loads_twice says so
     if (off <= kSlackOfWeights || is_given_twice) continue;
+    const std::string change = given > water && water > 0.0
+                                   ? fmt::format("below water its effective stress changes by {:+.0f} %",
+                                                 100.0 * (weight - given) / (given - water))
+                                   : "step 0 takes up the difference";
     remarks.push_back(
         {off > kFarWeights ? Rank::wrong : Rank::doubtful, 1.0 + off,
          last->find("unit_weight")
              ->fault(fmt::format(
-                 "initial_stress: a unit weight of {:.4g} kN/m3, and region '{}' has {:.4g} kN/m3 below body: step 0 takes "
-                 "up the difference",
-                 1e-3 * given, region.name, 1e-3 * weight)),
-         "give both the same weight; a layer has an item of its own: {region: NAME, ...}"});
+                 "initial_stress: a unit weight of {:.4g} kN/m3, and region '{}' has {:.4g} kN/m3 below body: {}",
+                 1e-3 * given, region.name, 1e-3 * weight, change)),
+         water > 0.0
+             ? "give both the same weight, that of the ground with its water; a layer has an item of its own: "
+               "{region: NAME, ...}"
+             : "give both the same weight; a layer has an item of its own: {region: NAME, ...}"});
     return;
   }
 }

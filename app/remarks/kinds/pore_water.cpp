@@ -24,6 +24,7 @@ using coupler::Dimension;
 /// Ground: clay to gravel.
 constexpr double kLeastPermeability = 1e-13;  // m/s
 constexpr double kMostPermeability = 0.1;
+constexpr double kLightestSaturated = 14e3;  // N/m^3, of clay; peat has less
 
 /// A number beyond the bounds of water or ground.
 void look_at_number(const Scene& scene, const Scene::Path& path, Dimension dimension, double least,
@@ -173,6 +174,10 @@ class Look {
   void at_weight() {
     const bool heavy = !problem_.body_loads.empty();
     if (heavy && !water_.options().table) {
+      if (!std::ranges::any_of(water_.regions(), [&](const auto& region) {
+            return full_weight(problem_, region.first) >= kLightestSaturated;
+          }))
+        return;
       add(Rank::doubtful, 2.0, {"body"},
           "body: without 'level' below 'water' pressures are those in excess of water at rest: the weight must "
           "be the submerged one",
@@ -188,7 +193,6 @@ class Look {
 
   /// Below its level the water has its weight of its own accord: a submerged weight counts the lift twice.
   void at_submerged_weight() {
-    constexpr double kLightest = 14e3;  // N/m^3, of saturated clay; peat has less
     for (const auto& [name, region] : water_.regions()) {
       const double weight = full_weight(problem_, name);
       const std::vector<int>& elements = problem_.mesh.regions.at(name);
@@ -198,8 +202,8 @@ class Look {
           return problem_.mesh.nodes[static_cast<std::size_t>(node)](dim - 1) < *water_.options().table;
         });
       });
-      if (!is_wet || weight <= 0.0 || weight >= kLightest) continue;
-      add(Rank::doubtful, kLightest / weight, {"body"},
+      if (!is_wet || weight <= 0.0 || weight >= kLightestSaturated) continue;
+      add(Rank::doubtful, kLightestSaturated / weight, {"body"},
           fmt::format(
               "body: region '{}' weighs {:.4g} kN/m3 below the 'level' of the water, whose weight is in it: "
               "saturated ground has 15 to 22 kN/m3",
