@@ -228,7 +228,8 @@ std::vector<KeyRow> key_rows(const std::vector<RunResult>& results, const std::v
     return pictures[k].outlines.empty() ? "" : std::to_string(pictures[k].all_elements);
   });
   add("nodes", [&](std::size_t k) {
-    return pictures[k].nodes.empty() ? "" : std::to_string(pictures[k].nodes.size());
+    const std::size_t components = static_cast<std::size_t>(pictures[k].dimension);
+    return pictures[k].nodes.empty() ? "" : std::to_string(pictures[k].nodes.size() / components);
   });
   add("steps committed", of_summary("/steps_committed"));
   begin_group("Balance: residuals are shares of the forces, before a step was accepted");

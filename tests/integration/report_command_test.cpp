@@ -94,6 +94,8 @@ TEST_F(ReportTest, ShowsTheNumbersOfTheRun) {
   for (const Json& data : data_of(text))
     if (data.contains("outlines")) mesh = data;
   ASSERT_EQ(mesh["outlines"].size(), 8U);
+  // 2 by 4 elements of 8 nodes: 5 by 9 places without the 8 centres.
+  EXPECT_NE(text.find("<tr><td>nodes</td><td class='number'>37</td></tr>"), std::string::npos);
   // Q8: corners and middle nodes in turns. The first two corners of a side have its middle node between them.
   const auto node = [&](int k, int i) {
     return mesh["nodes"][2 * mesh["outlines"][0][k].get<int>() + i].get<double>();

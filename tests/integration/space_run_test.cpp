@@ -68,6 +68,8 @@ TEST_F(SpaceRun, ALawCarriesItsTriaxialStrength) {
   const std::string faces = page.substr(at, page.find("]]", at) - at);
   EXPECT_EQ(std::ranges::count(faces, '['), 1 + 12) << faces;
   EXPECT_NE(page.find("\"dimension\":3"), std::string::npos);
+  // Corners and middles of edges of the six: 3 by 3 by 3.
+  EXPECT_NE(page.find("<tr><td>nodes</td><td class='number'>27</td></tr>"), std::string::npos);
   EXPECT_NE(content(folder() / "law" / "summary.json").find("\"unit\": \"N\""), std::string::npos);
 }
 
