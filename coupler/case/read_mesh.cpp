@@ -34,10 +34,31 @@ void divide_faces(fem::Mesh<3>& mesh) {
   mesh.boundaries.merge(made);
 }
 
-/// Divides the elements into the region `patch`, whose centres lie within `size` of the lower left corner (in space: and
+/// A patch that ends within elements would become a whole element larger or smaller. @param patch its sizes
+template <class Specification>
+void refuse_patch_within_elements(const std::vector<double>& patch, const Specification& body,
+                                  Section& section) {
+  constexpr double kRounding = 0.01;  // of an element: 66.7 mm are two thirds of 100 mm
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const double edge = body.size[i] / body.elements[i];
+    const double fits = patch[i] / edge;
+    if (patch[i] >= body.size[i] || std::abs(fits - std::round(fits)) <= kRounding) continue;
+    const double less = std::floor(fits) * edge;
+    section.fault(
+        "patch",
+        fmt::format(
+            "patch: its size number {}, {:.4g} m, ends within an element of {:.4g} m; give {}{:.4g} m, or "
+            "change the number of elements",
+            i + 1, patch[i], edge, less > 0.0 ? fmt::format("{:.4g} m or ", less) : "", less + edge));
+  }
+}
+
+/// Divides the elements into the region `patch`, whose centres lie within its sizes of the lower left corner (in space: and
 /// front), and the region `rest`.
-template <int dim>
-void make_patch(const typename Cosserat<dim>::Place& size, Section& section, fem::Mesh<dim>& mesh) {
+template <int dim, class Specification>
+void make_patch(const std::vector<double>& patch, const Specification& body, Section& section,
+                fem::Mesh<dim>& mesh) {
+  const Eigen::Map<const typename Cosserat<dim>::Place> size(patch.data());
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
     const typename Cosserat<dim>::Place centre = mesh.element_positions(e).colwise().mean();
     mesh.regions[(centre.array() < size.array()).all() ? "patch" : "rest"].push_back(e);
@@ -48,6 +69,7 @@ void make_patch(const typename Cosserat<dim>::Place& size, Section& section, fem
                   "to the centres of elements");
     return;
   }
+  refuse_patch_within_elements(patch, body, section);
   if constexpr (dim == 3) divide_faces(mesh);
 }
 
@@ -215,12 +237,9 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   const std::vector<int> elements = section.wholes("elements", 2, 1);
   specification.size = {size[0], size[1]};
   specification.elements = {elements[0], elements[1]};
-  Eigen::Vector2d patch = Eigen::Vector2d::Zero();
   const bool has_patch = section.find("patch") != nullptr;
-  if (has_patch) {
-    const std::vector<double> corner = section.quantities("patch", 2, Dimension::length, Limit::positive);
-    patch << corner[0], corner[1];
-  }
+  std::vector<double> patch;
+  if (has_patch) patch = section.quantities("patch", 2, Dimension::length, Limit::positive);
   const Entry* levels = section.find("levels");
   const Entry* regions = section.find("regions");
   const Entry* lines = section.find("lines");
@@ -230,7 +249,7 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   check_number(section, specification);
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
-    if (has_patch) make_patch<2>(patch, section, parts.result.problem.mesh);
+    if (has_patch) make_patch<2>(patch, specification, section, parts.result.problem.mesh);
     if (levels != nullptr) make_levels(*levels, parts);
     if (regions != nullptr) make_regions(*regions, parts);
     if (lines != nullptr) make_lines(*lines, parts);
@@ -261,17 +280,14 @@ void read_box(const Entry& entry, const std::string& element, CaseParts& parts) 
     specification.elements[i] = elements[i];
     count *= elements[i];
   }
-  Eigen::Vector3d patch = Eigen::Vector3d::Zero();
   const bool has_patch = section.find("patch") != nullptr;
-  if (has_patch) {
-    const std::vector<double> corner = section.quantities("patch", 3, Dimension::length, Limit::positive);
-    patch << corner[0], corner[1], corner[2];
-  }
+  std::vector<double> patch;
+  if (has_patch) patch = section.quantities("patch", 3, Dimension::length, Limit::positive);
   section.finish();
   check_number_in_space(section, count);
   if (parts.faults.size() != faults_before || element.empty()) return;
   parts.result.space->mesh = fem::box(specification, element);
-  if (has_patch) make_patch<3>(patch, section, parts.result.space->mesh);
+  if (has_patch) make_patch<3>(patch, specification, section, parts.result.space->mesh);
 }
 
 void read_cylinder(const Entry& entry, const std::string& element, CaseParts& parts) {

@@ -174,7 +174,21 @@ TEST_F(InformedCaseTest, APatchOfARectangleIsARegion) {
   const std::string all = "regions: {all: sand}";
   text.replace(text.find(all), all.size(), "regions: {patch: sand, rest: sand}");
   write(directory() / "case.yaml", text);
-  EXPECT_EQ(polargrain("check case.yaml --set mesh.rectangle.patch='[0.25 m, 0.25 m]'").errors, "");
+  EXPECT_EQ(polargrain("check case.yaml --set mesh.rectangle.patch='[0.2 m, 0.2 m]'").errors, "");
+  EXPECT_EQ(polargrain("check case.yaml --set mesh.rectangle.patch='[0.2 m, 9 m]'").errors, "");
+  EXPECT_EQ(
+      polargrain(
+          "check case.yaml --set mesh.rectangle.elements='[3, 6]' --set mesh.rectangle.patch='[133.3 mm, 0.4 m]'")
+          .errors,
+      "");
+  // The centres of a second column lie at 0.3 m: it would be 0.4 m wide.
+  const Outcome wider = polargrain("check case.yaml --set mesh.rectangle.patch='[0.31 m, 0.2 m]'");
+  EXPECT_EQ(wider.status, 2);
+  EXPECT_NE(wider.errors.find(
+                "patch: its size number 1, 0.31 m, ends within an element of 0.2 m; give 0.2 m or 0.4 m, or "
+                "change the number of elements"),
+            std::string::npos)
+      << wider.errors;
   const Outcome none = polargrain("check case.yaml --set mesh.rectangle.patch='[0.01 m, 0.01 m]'");
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.errors.find("patch: holds no element, or all of them"), std::string::npos) << none.errors;

@@ -46,7 +46,7 @@ TEST(Studies, BothSchemesOfTheBiaxialStudyAgreeInTheirFirstPercent) {
   expect_agreement(Scratch("Studies"), "0.8 %", 2.5, [](const std::string& scheme) {
     return std::pair(
         "biaxial_" + scheme + ".yaml",
-        std::string("--set 'mesh.rectangle.elements=[1, 2]' --set 'mesh.rectangle.patch=[0.15 m, 0.15 m]'"
+        std::string("--set 'mesh.rectangle.elements=[1, 2]' --set 'mesh.rectangle.patch=[0.2 m, 0.2 m]'"
                     " --set boundary.2.move.u2='-3.2 mm' --set steps.count=8"));
   });
 }
