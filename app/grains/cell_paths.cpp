@@ -57,6 +57,9 @@ CellIncrement increment_of(const std::array<double, kNumbers>& numbers) {
 }
 
 /// Names as two whole numbers each.
+/// Of the definitions: the run goes on from the end of another one.
+constexpr const char* kBeginsInOtherRun = "begins_in_other_run";
+
 class NameList {
  public:
   void add(const ContentName& name) {
@@ -164,6 +167,7 @@ void CellPathsRecord::write_cells(const fem::Solver<dim>& solver) {
   archive.write("cell_of_point", std::span<const std::int64_t>(of_points));
   archive.write("element_of_point", std::span<const std::int64_t>(elements));
   write_records(archive, "cells", std::span<const CellDefinition>(cells));
+  if (!case_.start_from.empty()) archive.write(kBeginsInOtherRun, std::span<const std::int64_t>(count));
   fs::remove(directory_ / kCellPathsFolder / kCellsFile);
   write_file_of(directory_ / kCellPathsFolder / kCellsFile, std::move(archive));
 }
@@ -234,6 +238,7 @@ CellPaths::CellPaths(const fs::path& directory) : folder_(directory / kCellPaths
                       "cells, the run has not committed a step, or an older version made it"});
   read_content(folder_ / kCellsFile, [&](MemoryArchive& archive) {
     const std::vector<std::int64_t> count = archive.integers("count");
+    begins_in_other_run_ = archive.all_integers().contains(kBeginsInOtherRun);
     cell_of_point_ = archive.integers("cell_of_point");
     element_of_point_ = archive.integers("element_of_point");
     if (element_of_point_.size() != cell_of_point_.size())
@@ -259,6 +264,7 @@ const CellDefinition* CellPaths::cell(std::size_t point) const {
 
 CellPaths::Ways CellPaths::ways(std::span<const std::size_t> points, const std::set<int>& steps) const {
   Ways ways;
+  ways.begin_in_other_run = begins_in_other_run_;
   std::set<ContentName> wanted;  // whose origin stands in an earlier file
   std::set<ContentName> asked_for;
   for (int step = *steps.rbegin(); step >= 0; --step) {

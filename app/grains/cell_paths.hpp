@@ -68,6 +68,8 @@ class CellPaths {
     std::map<int, std::vector<ContentName>> states;  ///< by step, then as the points were given
     std::map<ContentName, StateOrigin> origins;
     std::map<ContentName, StatePointer> kept;  ///< states on these ways that need not be made again
+    /// The run has taken its first states over from another one, which knows how they came to be.
+    bool begin_in_other_run = false;
     // A point in neither list is the packing at rest.
   };
   /// @param steps of steps(), at least one @throws InputError when a file of them is missing or cannot be read
@@ -78,6 +80,7 @@ class CellPaths {
 
   std::filesystem::path folder_;
   std::set<int> steps_;
+  bool begins_in_other_run_ = false;
   std::vector<CellDefinition> cells_;
   std::vector<std::int64_t> cell_of_point_;  ///< -1: a point without a cell
   std::vector<std::int64_t> element_of_point_;

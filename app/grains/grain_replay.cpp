@@ -29,8 +29,11 @@ GrainView GrainReplay::view(const ContentName& state) {
       const auto origin = ways_.origins.find(way.back());
       if (origin == ways_.origins.end() || way.size() > ways_.origins.size())
         throw RunError(
-            "how its grains came to be was not kept from the start: the packing is another one now, or a part of the run "
-            "was made by an older version");
+            ways_.begin_in_other_run
+                ? "the run begins with the grains at the end of another one ('start_from'), and how they came to be stands there "
+                  "alone: ask for grains of that run, or of one that begins with its packing"
+                : "how its grains came to be was not kept from the start: the packing is another one now, or a part of the run "
+                  "was made by an older version");
       way.push_back(origin->second.start == ContentName{} ? packing_ : origin->second.start);
     } while (made_.count(way.back()) == 0);
     for (std::size_t k = way.size() - 1; k > 0; --k) evaluate(way[k], way[k - 1]);

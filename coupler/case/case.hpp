@@ -67,8 +67,9 @@ struct CaseStage {
 struct RunBefore {
   std::string name;  ///< of its folder, as the case has it
   fem::Continuum continuum = fem::Continuum::cosserat;
-  std::vector<double> least, largest;  ///< corners of the box around its body, m; empty: not known
-  double pressure = 0.0;               ///< mean over its points, Pa; without that of water
+  std::vector<double> least, largest;           ///< corners of the box around its body, m; empty: not known
+  double pressure = 0.0;                        ///< mean over its points, Pa; without that of water
+  std::vector<std::string> other_scripts = {};  ///< regions whose contact script is another one there
   /// Stress behind the sides of each boundary that this case loads, in their order, Pa, tension positive; NaN: it is not known.
   std::map<std::string, std::vector<Eigen::Matrix3d>> behind = {};
 };

@@ -77,6 +77,22 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
   }
 }
 
+/// Regions with grains whose contacts were others there.
+std::vector<std::string> regions_of_other_scripts(const CaseIdentity& before, const CaseIdentity& now) {
+  const auto script_of = [](const CaseIdentity& identity, const std::string& region) {
+    const auto material = identity.values.find("regions." + region);
+    if (material == identity.values.end()) return std::string();
+    const auto script = identity.files.find("materials." + material->second + ".script");
+    return script == identity.files.end() ? std::string() : script->second;
+  };
+  std::vector<std::string> others;
+  for (const std::string& region : regions_of(now)) {
+    const std::string there = script_of(before, region);
+    if (!there.empty() && there != script_of(now, region)) others.push_back(region);
+  }
+  return others;
+}
+
 /// Pore pressures carry a share of the loads: they neither vanish nor appear.
 void check_water(const Entry& start, const CaseIdentity& before, const CaseIdentity& now,
                  const std::string& run, CaseParts& parts) {
@@ -244,6 +260,7 @@ void read_start(Section& top, CaseParts& parts) {
     check_materials(start, end.identity, now, name, parts);
     check_water(start, end.identity, now, name, parts);
     parts.result.with_problem([&](const auto& problem) { check_problem(start, end, problem, name, parts); });
+    parts.result.run_before->other_scripts = regions_of_other_scripts(end.identity, now);
     if (parts.faults.empty()) check_structures(start, end, name, parts);
   } catch (const InputError& of_file) {
     fault(of_file.what());

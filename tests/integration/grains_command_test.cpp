@@ -222,6 +222,37 @@ TEST_F(GrainsCommand, OfALawThatCellsInformTheCellsAreShown) {
   }
 }
 
+// The grains begin where those of another run ended, and under other contacts: both are told, before and behind the run.
+TEST_F(GrainsCommand, ARunThatBeginsInAnotherShowsNone) {
+  const std::string script = content(kSource / "liggghts_inputs/cells/hooke_radii.in");
+  write(folder() / "cell.in", script);
+  write(folder() / "soft.in", script + "\n# softer\n");
+  const std::string steps = "count: 4, tolerance: 1e-2";
+  std::string text = case_text("model: cell, lc: 8 mm, script: cell.in, packing: packing100.h5");
+  text.replace(text.find("deformation: large\n"), 19, "");
+  run_case(text.replace(text.find(steps), steps.size(), "count: 1, tolerance: 1e-2"));
+  std::filesystem::rename(folder() / "out", folder() / "first");
+  text += "start_from: first\n";
+  write(folder() / "case.yaml", text + "output: {grains: [0]}\n");
+  const Outcome same = run_in(folder(), kProgram + " check case.yaml --all");
+  EXPECT_NE(same.out.find("output: no grains are shown in a run with 'start_from'"), std::string::npos)
+      << same.out;
+  EXPECT_EQ(same.out.find("the contact script"), std::string::npos) << same.out;
+  write(folder() / "case.yaml", text);
+  const Outcome soft =
+      run_in(folder(), kProgram + " check case.yaml --all --set materials.sand.script=soft.in");
+  EXPECT_NE(soft.out.find("the contact script of region 'all' is another one than in 'first'"),
+            std::string::npos)
+      << soft.out;
+  EXPECT_EQ(soft.out.find("no grains are shown"), std::string::npos) << soft.out;
+  run_case(text, "--set steps.count=4");
+  const Outcome shown = run_in(folder(), kProgram + " grains out --point 0 --last");
+  EXPECT_EQ(shown.status, 1);
+  EXPECT_NE(shown.errors.find("the run begins with the grains at the end of another one ('start_from')"),
+            std::string::npos)
+      << shown.errors;
+}
+
 TEST_F(GrainsCommand, SpheresInSpaceInAllThreeSchemes) {
   write(folder() / "spheres.yaml",
         "grains: 100\nsizes: {law: uniform, radius: [4 mm, 6 mm]}\ndensity: 2650\ndimension: 3\n"

@@ -231,6 +231,15 @@ TEST_F(ProfilesCase, BoxesGoOverToTheSameRotationsOfGrains) {
       "to the same alone: set 'rotations: controlled'");
   EXPECT_EQ(fault_behind(free, with("rotations: free, " + part)), "no fault");
   EXPECT_EQ(fault_behind(controlled, controlled), "no fault");
+  // Contacts may be meant to change: that is no fault.
+  const auto other_scripts = [&] {
+    std::ofstream(directory() / "case.yaml") << free;
+    return read_case(directory() / "case.yaml").run_before->other_scripts;
+  };
+  EXPECT_EQ(fault_behind(free, free), "no fault");
+  EXPECT_TRUE(other_scripts().empty());
+  std::ofstream(directory() / "cell.in") << "# softer\n";
+  EXPECT_EQ(other_scripts(), std::vector<std::string>{"all"});
 }
 
 TEST_F(ProfilesCase, FaultsOfTheStartNameLineAndRemedy) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A run to start from that has not come to its end, or that is of another continuum or of a larger body.
+// A run to start from that has not come to its end, or that is of another continuum, of other contacts or of a larger body.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,6 +61,28 @@ void compare_bodies(const Scene& scene, const coupler::RunBefore& before, Remark
   });
 }
 
+void compare_scripts(const Scene& scene, const coupler::RunBefore& before, Remarks& remarks) {
+  for (const std::string& region : before.other_scripts)
+    add(scene, 1.0,
+        fmt::format(
+            "the contact script of region '{}' is another one than in '{}': grains go on from where other contacts "
+            "had left them",
+            region, before.name),
+        "name the script of that run; where contacts are meant to change, keep its contact model", remarks);
+}
+
+/// How grains came to be is kept by the run in which they did.
+void look_at_grains(const Scene& scene, Remarks& remarks) {
+  if (scene.the_case().output_grains.empty()) return;
+  remarks.push_back(
+      {Rank::doubtful, 1.0,
+       scene.place({"output", "grains"})
+           .fault(
+               "output: no grains are shown in a run with 'start_from': how they came to be stands in the run "
+               "before alone"),
+       "leave 'grains' out, or run both parts in one case, in stages"});
+}
+
 }  // namespace
 
 void end_of_run_before(const Scene& scene, Remarks& remarks) {
@@ -69,7 +91,9 @@ void end_of_run_before(const Scene& scene, Remarks& remarks) {
   if (scene.the_case().run_before) {
     compare_continua(scene, *scene.the_case().run_before, remarks);
     compare_bodies(scene, *scene.the_case().run_before, remarks);
+    compare_scripts(scene, *scene.the_case().run_before, remarks);
   }
+  look_at_grains(scene, remarks);
   // Without a summary the run was ended from outside, or is at work.
   std::ifstream file(directory / "summary.json");
   const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
