@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -175,6 +176,22 @@ class WallMeasurement {
     for (const std::filesystem::path& packing : options_.beside)
       write_file(coupler::interface_file_of(packing), text);
     if (!options_.quiet) show(walls);
+    warn_of_unrest(walls);
+  }
+
+  /// Grains far from balance press and pull with their inertia, above all where they set out.
+  void warn_of_unrest(const std::vector<std::vector<WallFigures>>& walls) const {
+    constexpr double kUsual = 0.05;  // as `check` has it of unbalanced ratios
+    double most = 0.0;
+    for (const std::vector<WallFigures>& boxes : walls)
+      most = std::max(most, mean_of(boxes, &WallFigures::unbalanced).first);
+    if (most <= kUsual) return;
+    tell(
+        stderr,
+        "warning: {}: the mean unbalanced ratio of the grains is {:.2g} (at most {:g} is usual): their inertia is in the "
+        "friction, most of all where the slip begins; give a smaller --inertial-number than {:g} and another folder, 1e-3 is "
+        "usual\n",
+        options_.directory.string(), most, kUsual, options_.inertial_number);
   }
 
   void show(const std::vector<std::vector<WallFigures>>& walls) const {

@@ -51,6 +51,7 @@ WallShearing read_wall_shearing(const std::filesystem::path& folder, double pres
   read.layer = read_layer(folder, pressure);
   const CsvTable history(folder / "history.csv");
   read.rises = history.numbers("rise");
+  read.unbalanced = history.numbers("unbalanced_ratio");
   const std::vector<double> normal = history.numbers("normal_stress_ratio");
   for (std::size_t k = 0; k < normal.size(); ++k) read.layer.ratios[k] /= normal[k];
   read.wall = surface;
@@ -92,6 +93,7 @@ WallFigures wall_figures(const WallShearing& shearing, double diameter, double w
   figures.peak_at = peak_at / diameter;
   figures.end = mean_between(at, shearing.layer.ratios, last - diameter, last);
   figures.rise = mean_between(at, shearing.rises, last - reach, last) / diameter;
+  figures.unbalanced = mean_between(at, shearing.unbalanced, 0.0, last);
 
   const std::vector<double> slips = slips_of_curve(way);
   for (std::size_t k = 0; k < slips.size(); ++k) {

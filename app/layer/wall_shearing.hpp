@@ -13,8 +13,9 @@ namespace polargrain::app {
 /// Grains that were sheared on a rough wall. Lengths in m.
 struct WallShearing {
   Shearing layer;  ///< its ratios are shear over normal stress of the wall; frames without the wall's grains
-  std::vector<double> rises;  ///< of the plate, at layer.displacements
-  double wall = 0.0;          ///< height of the wall's surface
+  std::vector<double> rises;       ///< of the plate, at layer.displacements
+  std::vector<double> unbalanced;  ///< forces over contact forces, at the same
+  double wall = 0.0;               ///< height of the wall's surface
 };
 
 /// The result of shear_between on a wall. @param surface height of the wall's surface, m @throws InputError naming file and line
@@ -28,7 +29,8 @@ struct WallFigures {
   double rise = 0.0;     ///< of the plate at the end, d
   double turning =
       0.0;  ///< of grains at the wall past the peak, rad per d of slip, positive where they roll along the wall
-  double share = 0.0;  ///< of the slip past the peak that the five diameters at the wall take
+  double share = 0.0;       ///< of the slip past the peak that the five diameters at the wall take
+  double unbalanced = 0.0;  ///< mean over all of the slip; no column of tables
   std::vector<fem::FrictionCurve::Measured> curve;  ///< at slips_of_curve, slip and opening in m
 
   /// Names and values, for tables.

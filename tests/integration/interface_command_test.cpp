@@ -33,6 +33,7 @@ TEST(InterfaceCommand, MeasuresFrictionThatACaseReadsAndGoesOnWhereItWas) {
   write(scratch.path() / "grains.yaml", kGrains);
   const Outcome made = run_in(scratch.path(), kProgram + kSmall);
   ASSERT_EQ(made.status, 0) << made.errors;
+  EXPECT_EQ(made.errors.find("unbalanced"), std::string::npos) << made.errors;
   const CsvTable walls(scratch.path() / "out/walls.csv");
   ASSERT_EQ(walls.rows(), 4u);
   for (std::size_t row = 0; row < walls.rows(); ++row) {
@@ -70,6 +71,21 @@ TEST(InterfaceCommand, MeasuresFrictionThatACaseReadsAndGoesOnWhereItWas) {
   const Outcome changed = run_in(scratch.path(), kProgram + kSmall);
   EXPECT_EQ(changed.status, 2);
   EXPECT_NE(changed.errors.find("holds boxes of another specification"), std::string::npos) << changed.errors;
+}
+
+// Without rest the law begins above its own peak.
+TEST(InterfaceCommand, HurriedGrainsAreTold) {
+  const Scratch scratch("interface_hurried");
+  write(scratch.path() / "grains.yaml", kGrains);
+  const Outcome made = run_in(
+      scratch.path(),
+      kProgram +
+          " interface grains.yaml -o out --grains 100 --height 6 --seeds 1,2 --roughness 1 --way 2 --inertial-number 0.05");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  EXPECT_NE(made.errors.find("warning: out: the mean unbalanced ratio of the grains is 0."),
+            std::string::npos)
+      << made.errors;
+  EXPECT_NE(made.errors.find("give a smaller --inertial-number than 0.05"), std::string::npos) << made.errors;
 }
 
 TEST(InterfaceCommand, MistakesAreFoundBeforeAnythingIsMade) {

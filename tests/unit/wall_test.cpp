@@ -79,6 +79,7 @@ WallShearing known_box(double way) {
       box.layer.displacements.push_back(0.01 * slip);
       box.layer.ratios.push_back(slip < 1.0 ? 0.5 * slip : std::max(0.3, 0.5 - 0.1 * (slip - 1.0)));
       box.rises.push_back(0.001 * slip);
+      box.unbalanced.push_back(slip < 2.5 ? 0.1 : 0.3);
     }
     const double slip = way * k / 100.0;
     Shearing::Frame frame{0.01 * slip, heights, heights, Eigen::VectorXd::Zero(100)};
@@ -99,6 +100,7 @@ TEST(WallFiguresOf, AKnownBox) {
   EXPECT_NEAR(figures.peak_at, 1.15, 0.11);
   EXPECT_NEAR(figures.end, 0.3, 1e-12);
   EXPECT_NEAR(figures.rise, 0.4875, 1e-3) << "a mean of the last quarter of a diameter";
+  EXPECT_NEAR(figures.unbalanced, 0.2, 1e-3) << "half of the slip each, in rows of 0.0055";
   EXPECT_NEAR(figures.turning, 0.2, 1e-12);
   EXPECT_NEAR(figures.share, 0.5, 0.005) << "heights in steps of a tenth of a diameter";
   ASSERT_EQ(figures.curve.size(), slips_of_curve(5.0).size());
