@@ -78,7 +78,7 @@ mesh: {file: footing.msh, element: Q8R}
 
 boundary:                           # the physical groups of the mesh
   - {on: base, fix: [u1, u2]}
-  - {on: sides, fix: [u1]}
+  - {on: sides, fix: [u1, w]}       # the plane of symmetry turns nothing, nor does the far side
   - {on: footing, fix: [u1], move: {u2: -@SETTLEMENT@ m}}   # rough
   - {on: surface, pressure: @PRESSURE@}                # that of the packing
 
