@@ -55,6 +55,7 @@ void carried_along(const Scene& scene, Remarks& remarks);
 void narrow_plates(const Scene& scene, Remarks& remarks);
 void held_sides(const Scene& scene, Remarks& remarks);
 void shape_of_elements(const Scene& scene, Remarks& remarks);
+void skew_locking(const Scene& scene, Remarks& remarks);
 void open_seams(const Scene& scene, Remarks& remarks);
 void hanging_nodes(const Scene& scene, Remarks& remarks);
 void pore_water(const Scene& scene, Remarks& remarks);

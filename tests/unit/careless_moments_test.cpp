@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Forces and moments on nodes, and rotations of beams: what acts otherwise than a user may think is told.
+// Forces and moments on nodes, rotations of beams and at plates: what acts otherwise than a user may think is told.
 #include "tests/support/careless_features.hpp"
 
 namespace polargrain::testing {
@@ -119,6 +119,36 @@ steps: {count: 2, tolerance: 1e-8}
 monitors: {shear: {beam: dowel, value: shear}}
 )";
 
+/// A perfectly plastic layer without end between rough plates; with four elements Q4 it bears 179 kPa in place of 56.
+const std::string kShearedLayer = R"(title: A layer between rough plates
+continuum: cosserat
+mesh: {rectangle: {size: [0.1 m, 0.2 m], elements: [1, 4]}, element: Q4}
+materials: {m: {model: elastoplastic, E: 50 MPa, nu: 0.25, Gc: 20 MPa, lc: 20 mm, friction_angle: 30 deg, dilatancy_angle: 5 deg, cohesion: 1 kPa, confining: 100 kPa}}
+regions: {all: m}
+boundary:
+  - {on: bottom, fix: [u1, u2, w]}
+  - {on: left, tie: right}
+  - {on: top, fix: [w], move: {u1: 20 mm}, pressure: 100 kPa}
+steps: {count: 20, tolerance: 1e-8}
+monitors: {force: {on: top, reaction: u1}}
+)";
+
+/// The same in space, two elements high: 552 kPa.
+const std::string kShearedLayerInSpace = replaced(
+    replaced(
+        replaced(replaced(kShearedLayer, "rectangle: {size: [0.1 m, 0.2 m], elements: [1, 4]}, element: Q4",
+                          "box: {size: [0.1 m, 0.1 m, 0.2 m], elements: [1, 1, 2]}, element: H8"),
+                 "fix: [u1, u2, w]}",
+                 "fix: [u1, u2, u3, w1, w2, w3]}\n  - {on: [front, back], fix: [u2, w1, w3]}"),
+        "fix: [w], move: {u1: 20 mm}", "fix: [u2, w1, w2, w3], move: {u1: 20 mm}"),
+    "confining: 100 kPa", "confining: 100 kPa, match: plane_strain");
+
+/// Between the same plates, a specimen under cell pressure: an axial stress of 712 kPa, and 425 with elements Q4R and Q8R.
+const std::string kRoughBiaxial =
+    replaced(replaced(replaced(kShearedLayer, "elements: [1, 4]", "elements: [4, 8]"),
+                      "{on: left, tie: right}", "{on: [left, right], pressure: 100 kPa}"),
+             "fix: [w], move: {u1: 20 mm}, pressure: 100 kPa", "fix: [u1, w], move: {u2: -20 mm}");
+
 class CarelessMoments : public ::testing::TestWithParam<Careless> {};
 
 /// The base is silent about it, the scene tells.
@@ -194,6 +224,57 @@ TEST(CouplesOfAPlate, AreMeant) {
   EXPECT_FALSE(is_told_of_features(remarks, "sum of the couples", Rank::doubtful))
       << app::text_of(remarks, true);
 }
+
+class LinearElementsBetweenPlates : public ::testing::TestWithParam<Careless> {};
+
+/// Told with the message; without one, nothing is told of it.
+TEST_P(LinearElementsBetweenPlates, AreToldWhereTheyLock) {
+  const Careless& scene = GetParam();
+  const app::Remarks remarks = remarks_of(scene);
+  const std::string message = scene.message.empty() ? "lock in shear" : scene.message;
+  EXPECT_EQ(is_told_of_features(remarks, message, Rank::doubtful), !scene.message.empty())
+      << app::text_of(remarks, true);
+}
+
+// The excess is Gc gamma (h/L)^2, of 20 MPa and 0.1: measured 123, 496, 28.6 and 7.6 kPa, and half of 287 in the biaxial test.
+INSTANTIATE_TEST_SUITE_P(
+    All, LinearElementsBetweenPlates,
+    ::testing::Values(
+        Careless{
+            "Layer", kShearedLayer, "", "",
+            "mesh: the micro-rotation is held at 'bottom' and 'top', and linear elements with several points, of "
+            "50 mm in region 'all', lock in shear once 'm' yields: shear stress some 125 kPa too high, 245 % of its "
+            "strength"},
+        Careless{"InSpace", kShearedLayerInSpace, "", "", "shear stress some 500 kPa too high"},
+        Careless{
+            "OnePlate", kShearedLayer, "fix: [w], move", "move",
+            "held at 'bottom', and linear elements with several points, of 50 mm in region 'all', lock in "
+            "shear once 'm' yields: shear stress some 31.25 kPa too high"},
+        Careless{"SmallElements", kShearedLayer, "elements: [1, 4]", "elements: [1, 16]",
+                 "shear stress some 7.81"},
+        Careless{"Biaxial", kRoughBiaxial, "", "", "shear stress some 125 kPa too high"},
+        Careless{"OfOnePoint", kShearedLayer, "element: Q4", "element: Q4R"},
+        Careless{"Quadratic", kShearedLayer, "element: Q4", "element: Q8R"},
+        Careless{"SmallerElements", kShearedLayer, "elements: [1, 4]", "elements: [1, 20]"},
+        Careless{"LittleStrain", kShearedLayer, "20 mm}, pressure", "0.5 mm}, pressure"},
+        Careless{"SkewStressThatYields", kShearedLayer, "confining: 100 kPa",
+                 "confining: 100 kPa, invariants: [0.375, 0.125, 0.25]"},
+        Careless{
+            "Cauchy",
+            replaced(replaced(kShearedLayer, "continuum: cosserat", "continuum: cauchy"), "u2, w]", "u2]"),
+            "fix: [w], move", "move"},
+        Careless{"FreeRotations", replaced(kShearedLayer, "u2, w]", "u2]"), "fix: [w], move", "move"},
+        Careless{
+            "SmoothPlates",
+            replaced(kRoughBiaxial, "fix: [u1, u2, w]}", "fix: [u2, w]}\n  - {on: bottom_left, fix: [u1]}"),
+            "fix: [u1, w], move", "fix: [w], move"},
+        Careless{"Oedometer", kRoughBiaxial, "{on: [left, right], pressure: 100 kPa}",
+                 "{on: [left, right], fix: [u1]}"},
+        Careless{"Elastic", kShearedLayer,
+                 "model: elastoplastic, E: 50 MPa, nu: 0.25, Gc: 20 MPa, lc: 20 mm, friction_angle: 30 deg, "
+                 "dilatancy_angle: 5 deg, cohesion: 1 kPa",
+                 "model: elastic, E: 50 MPa, nu: 0.25, Gc: 20 MPa, lc: 20 mm"}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace polargrain::testing
