@@ -231,10 +231,30 @@ void check_run_along(Section& section, const Profile& profile, const Body& body)
   }
 }
 
-/// A name of place_values; a fault at the key where the name is unknown.
+/// What a value is that a cauchy continuum does not have; empty: it has it.
+std::string missing_in_cauchy(const PlaceValue& value) {
+  if (value.unit == "rad") return "micro-rotation";
+  return value.unit == "N/m" ? "couple stress" : "";
+}
+
+bool is_classical(const CaseParts& parts) {
+  return parts.result.with_problem(
+      [](const auto& problem) { return problem.continuum == fem::Continuum::cauchy; });
+}
+
+/// A name of place_values; a fault at the key where the name is unknown, or stays zero.
 PlaceValue value_of(Section& section, const std::string& key, const std::string& name, CaseParts& parts) {
   const int dimension = parts.result.dimension();
-  if (const PlaceValue* const value = place_value(name, dimension)) return *value;
+  if (const PlaceValue* const value = place_value(name, dimension)) {
+    if (const std::string missing = missing_in_cauchy(*value); !missing.empty() && is_classical(parts)) {
+      section.fault(
+          key,
+          fmt::format("{}: {}: a cauchy continuum has no {}, and it stays zero; set 'continuum: cosserat'",
+                      key, name, missing));
+      return {};
+    }
+    return *value;
+  }
   const std::vector<std::string> known = names_of_place_values(dimension);
   const std::string guess = nearest(name, known);
   section.fault(key, fmt::format("{}: expected one of {}, found '{}'{}", key, listed(known), name,

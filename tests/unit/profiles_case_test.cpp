@@ -109,6 +109,25 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_NE(fault("on: top, values", "on: tap, values").find("14: profile 'trough': on"), std::string::npos);
 }
 
+// The case has a cauchy continuum.
+TEST_F(ProfilesCase, RotationsAndCoupleStressesOfCauchyAreFaults) {
+  EXPECT_EQ(fault("values: [s22, u2]", "values: [s22, w]"),
+            "13: profile 'axis': values: w: a cauchy continuum has no micro-rotation, and it stays zero; set "
+            "'continuum: cosserat'");
+  EXPECT_EQ(fault("displacement: u2}", "displacement: w}"),
+            "11: monitor 'settled': displacement: w: a cauchy continuum has no micro-rotation, and it stays "
+            "zero; set 'continuum: cosserat'");
+  EXPECT_EQ(fault("stress: s22", "stress: m1"),
+            "10: monitor 'deep': stress: m1: a cauchy continuum has no couple stress, and it stays zero; set "
+            "'continuum: cosserat'");
+  std::string polar = kCaseOfProfilesCase;
+  polar.replace(polar.find("continuum: cauchy"), 17, "continuum: cosserat");
+  polar.replace(polar.find("nu: 0.3"), 7, "nu: 0.3, Gc: 8 MPa, lc: 1 cm");
+  polar.replace(polar.find("values: [s22, u2]"), 17, "values: [w, m1]");
+  polar.replace(polar.find("start_from: first\n"), 18, "");
+  EXPECT_EQ(fault(kCaseOfProfilesCase, polar), "no fault");
+}
+
 // The mean of two materials, or of two blocks that slide, is the value of neither.
 TEST_F(ProfilesCase, PlacesWithTwoSidesAreFaults) {
   const auto told = [&](std::vector<std::pair<std::string, std::string>> changes) {
