@@ -83,11 +83,14 @@ class Body {
   std::optional<fem::PlaceFinder<3>> space_;
 };
 
-/// Evenly along a straight line, both ends included.
+/// Evenly along a straight line, both ends included. @returns nothing, with faults, when one of them is not understood
 std::vector<std::vector<double>> places_between(Section& section, CaseParts& parts) {
+  const std::size_t faults_before = parts.faults.size();
   const std::vector<double> from = read_place(section, "from", parts);
   const std::vector<double> to = read_place(section, "to", parts);
+  const bool are_known = parts.faults.size() == faults_before;
   const int points = section.whole_or("points", 2, 51);
+  if (!are_known) return {};
   std::vector<std::vector<double>> places{from};
   if (from == to)
     section.fault(
@@ -270,7 +273,9 @@ std::vector<std::vector<double>> places_along(const fem::Mesh<2>& mesh, const st
 
 void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   monitor.kind = Monitor::Kind::place;
+  const std::size_t faults_before = parts.faults.size();
   monitor.at = read_place(section, "at", parts);
+  const bool is_known = parts.faults.size() == faults_before;
   const bool stress = section.find("stress") != nullptr;
   const bool displacement = section.find("displacement") != nullptr;
   if (section.find("on") != nullptr) section.fault("on", "on: 'at' says where; keep one of them");
@@ -282,6 +287,7 @@ void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   monitor.component = value_of(section, key, section.text(key, "the name of a component"), parts);
   if (!monitor.component.name.empty() && monitor.component.is_stress != stress)
     section.fault(key, fmt::format("{}: '{}' is no {}", key, monitor.component.name, key));
+  if (!is_known) return;  // the place that stands in for it says nothing
   const Body body(parts);
   if (!body.has(monitor.at))
     section.fault("at", "at: this place is outside of the body; give one inside, on the mesh as it is made");

@@ -109,6 +109,26 @@ TEST_F(ProfilesCase, FaultsOfPlacesNameLineAndRemedy) {
   EXPECT_NE(fault("on: top, values", "on: tap, values").find("14: profile 'trough': on"), std::string::npos);
 }
 
+// The place that stands in for it, [1 m, 1 m], is outside of this body and an end of the line.
+TEST_F(ProfilesCase, APlaceThatIsNotUnderstoodHasOneFault) {
+  std::string text = kCaseOfProfilesCase;
+  text.replace(text.find("size: [2 m, 1 m]"), 16, "size: [2 m, 0.5 m]");
+  text.replace(text.find("at: [1 m, 1 m]"), 14, "at: [1 m, 0.5 m]");
+  text.replace(text.find("start_from: first\n"), 18, "");
+  const auto told = [&](const std::string& good, const std::string& bad) {
+    std::string changed = text;
+    changed.replace(changed.find(good), good.size(), bad);
+    return faults(kCaseOfProfilesCase, changed);
+  };
+  EXPECT_TRUE(told("", "").empty());
+  const std::vector<Fault> of_monitor = told("deep: {at: [1 m, 0.5 m]", "deep: {at: [1 m]");
+  ASSERT_EQ(of_monitor.size(), 1U);
+  EXPECT_NE(of_monitor[0].message.find("monitor 'deep': at: expected a list of 2"), std::string::npos);
+  const std::vector<Fault> of_profile = told("from: [1 m, 0]", "from: [1 m]");
+  ASSERT_EQ(of_profile.size(), 1U);
+  EXPECT_NE(of_profile[0].message.find("profile 'axis': from: expected a list of 2"), std::string::npos);
+}
+
 // The case has a cauchy continuum.
 TEST_F(ProfilesCase, RotationsAndCoupleStressesOfCauchyAreFaults) {
   EXPECT_EQ(fault("values: [s22, u2]", "values: [s22, w]"),
