@@ -40,7 +40,7 @@ class DirectoryLock {
   int descriptor_;
 };
 
-/// The run that has been at work in a directory, by its log, which every run writes: none, that one, or another one.
+/// The run that has been at work in a directory, by its log, which every run writes. Two of them tell whether another run came between.
 struct FormerRun {
   std::uint64_t file = 0;
   std::int64_t seconds = 0;  ///< of its last line, with the next
@@ -53,7 +53,7 @@ FormerRun former_run_in(const std::filesystem::path& directory);
 /// Makes the directory, locks it, and empties it of the files of a former run, known by their names. Anything else stays, also in
 /// its folders, and a report.html that is no page of polargrain. A former checkpoint is kept once, as checkpoint.old.h5. To
 /// resume: leaves all as it is.
-/// @param known what was there when this run began: of two runs that begin together the later one stops
+/// @param known the run that was there when this one began: of two that begin together the later one stops
 /// @throws InputError when it exists, is not empty and holds no former result (summary.json, run.log or a
 /// checkpoint): nothing of the user's own is ever mixed with results; when another run is at work in it; to
 /// resume, when it holds no run. RunError when it cannot be made or written.

@@ -234,7 +234,7 @@ void check_run_along(Section& section, const Profile& profile, const Body& body)
   }
 }
 
-/// What a value is that a cauchy continuum does not have; empty: it has it.
+/// The name of a value that a cauchy continuum does not have; empty: it has this one.
 std::string missing_in_cauchy(const PlaceValue& value) {
   if (value.unit == "rad") return "micro-rotation";
   return value.unit == "N/m" ? "couple stress" : "";

@@ -23,7 +23,7 @@ std::string dimension_fault(const std::string& value, int dimension) {
       dimension, plane ? "hooke_radii.in" : "spheres_hooke_radii.in", value);
 }
 
-/// Of a command whose words are all known. @returns empty: none
+/// Of a command whose words are all known. @returns the fault in words; empty: it is right
 std::string scene_fault(const std::vector<std::string>& words, int dimension) {
   if (words.size() == 2 && words[0] == "dimension") return dimension_fault(words[1], dimension);
   if (words.size() == 2 && words[0] == "units" && words[1] != "si")

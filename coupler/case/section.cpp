@@ -335,7 +335,7 @@ std::vector<std::pair<double, double>> Section::pairs(const std::string& key, Di
     const double x = number_of(item.items[0], key, first, Limit::any);
     const bool is_known = faults_.size() == before;
     const double y = number_of(item.items[1], key, second, limit_of_second);
-    if (!is_known) continue;  // the order of a value that is none says nothing
+    if (!is_known) continue;  // a wrong value has no order
     if (!values.empty() && x <= values.back().first) {
       faults_.push_back(
           item.fault(fmt::format("{}: {}: the first value of a pair must be larger than in the "

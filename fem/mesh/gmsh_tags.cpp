@@ -21,7 +21,7 @@ namespace {
 /// A line of $Elements: number, kind, number of tags, group, entity, further tags, nodes.
 struct TaggedElement {
   std::pair<int, long> entity;  ///< dimension and number
-  long group = 0;               ///< 0: none
+  long group = 0;               ///< 0: it is in no group
   std::vector<long> nodes;      ///< in rising order
 };
 

@@ -111,7 +111,7 @@ struct Problem {
   std::vector<InitialStress<dim>> initial_stresses;
   /// Names of the stages of construction, for messages; empty: there is one. Solver::begin_stage goes on to the next.
   std::vector<std::string> stages = {};
-  /// The time at which each of them begins; not a number where it is not known before, and empty where none is.
+  /// The time at which each of them begins; not a number where nobody knows it before, and empty where the stages have no names.
   std::vector<double> stage_starts = {};
   /// Of the regions that come or go; all others are there in every stage.
   std::map<std::string, Lifetime> lifetimes = {};

@@ -395,7 +395,7 @@ void Solver<dim>::Implementation::add_inertia_of_given(double seconds, Eigen::Ve
 }
 
 double Energies::error() const {
-  constexpr double kAboveRounding = 1e-9;  // that of sums over a million of steps is some 1e-13
+  constexpr double kAboveRounding = 1e-9;  // sums over a million of steps have 1e-13
   const double missing = external - internal - kinetic - damped - absorbed;
   const double largest = std::max(
       {std::abs(external), std::abs(internal), kinetic, damped, absorbed, kAboveRounding * at_start});

@@ -228,7 +228,7 @@ class Cell:
         return Answer(reply, self.dimension, self._packing_name)
 
     def _own(self, state):
-        """The same state. Raises InputError when it is of other grains: those of the cell would answer, and mean nothing."""
+        """The same state. Raises InputError when it is of other grains: the cell would answer with its own, and mean nothing."""
         if not isinstance(state, State):
             raise TypeError(f"a State is expected, such as Cell.state gives; this is {state!r}")
         if state.packing not in ("", self._packing_name):

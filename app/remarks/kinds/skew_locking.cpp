@@ -75,7 +75,7 @@ double linear_extent(const fem::Mesh<dim>& mesh, const SceneRegion& region, int 
   return count == 0 ? 0.0 : sum / count;
 }
 
-/// What is held at the ends of the body.
+/// The degrees of freedom that are held at the ends of the body.
 template <int dim>
 class HeldEnds {
  public:
