@@ -41,22 +41,40 @@ inline double largest_acceleration(const CsvTable& motion) {
   return largest;
 }
 
-/// Speed of shear waves in a region, m/s; nothing where a modulus is not known.
-inline std::optional<double> shear_speed(const Scene& scene, const SceneRegion& region) {
+/// Speeds of waves in a region, m/s.
+struct WaveSpeeds {
+  double shear;
+  double compression;
+};
+
+/// Nothing where a modulus is not known.
+inline std::optional<WaveSpeeds> wave_speeds(const Scene& scene, const SceneRegion& region) {
   double shear = 0.0;
+  double poisson = 0.0;
   if (region.packing != nullptr) {
     shear = region.packing->moduli.shear;
+    poisson = region.packing->moduli.poisson;
   } else {
     const auto young = scene.quantity({"materials", region.material, "E"}, coupler::Dimension::pressure);
-    const auto poisson = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
-    if (young && poisson) shear = 0.5 * *young / (1.0 + *poisson);
+    const auto given = scene.quantity({"materials", region.material, "nu"}, coupler::Dimension::number);
+    if (young && given) {
+      shear = 0.5 * *young / (1.0 + *given);
+      poisson = *given;
+    }
   }
   const double density = scene.with_problem([&](const auto& problem) {
     const auto found = problem.densities.find(region.name);
     return found == problem.densities.end() ? 0.0 : found->second;
   });
   if (!(shear > 0.0 && density > 0.0)) return {};
-  return std::sqrt(shear / density);
+  const double slow = std::sqrt(shear / density);
+  const double ratio = poisson < 0.5 ? std::sqrt(2.0 * (1.0 - poisson) / (1.0 - 2.0 * poisson)) : HUGE_VAL;
+  return WaveSpeeds{slow, slow * ratio};
+}
+
+inline std::optional<double> shear_speed(const Scene& scene, const SceneRegion& region) {
+  const auto speeds = wave_speeds(scene, region);
+  return speeds ? std::optional(speeds->shear) : std::nullopt;
 }
 
 }  // namespace polargrain::app

@@ -24,6 +24,7 @@ void sums_of_stages(const Scene& scene, Remarks& remarks);
 void placed_stress(const Scene& scene, Remarks& remarks);
 void densities(const Scene& scene, Remarks& remarks);
 void motions(const Scene& scene, Remarks& remarks);
+void length_of_pulses(const Scene& scene, Remarks& remarks);
 void quiet_sides(const Scene& scene, Remarks& remarks);
 void movement(const Scene& scene, Remarks& remarks);
 void pulled_apart(const Scene& scene, Remarks& remarks);

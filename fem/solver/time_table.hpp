@@ -23,6 +23,7 @@ class TimeTable {
   /// points and zero outside of them: behind the last point it keeps its speed.
   static TimeTable of_accelerations(const std::vector<Point>& accelerations);
 
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] double at(double time) const;
   /// Change per time just after `time`.
   [[nodiscard]] double slope(double time) const;
