@@ -162,7 +162,7 @@ void look_at_components(const Entry& item, Remarks& remarks) {
          fmt::format("give s33, for example {:.4g} kPa", 0.5e-3 * (s[0] + s[1]))});
 }
 
-/// Water that carries its part of the weights given, N/m^3: they hold it where it has a level. 0: none, or weights are submerged.
+/// Water that carries its part of the weights given, N/m^3: they hold it where it has a level. 0: there is no water, or weights are submerged.
 double water_in_weights(const Scene& scene, const std::string& region) {
   return scene.with_problem([&](const auto& problem) {
     const auto* const water = fem::pore_water_of(problem);

@@ -62,7 +62,7 @@ std::optional<double> stiffness_of(const Scene& scene, const std::string& region
   return *young * (1.0 - *poisson) / ((1.0 + *poisson) * (1.0 - 2.0 * *poisson));
 }
 
-/// Terzaghi's mean pressure behind a load that has just come, over that load: what one implicit step has more of it than the
+/// Terzaghi's mean pressure behind a load that has just come, over that load: the excess of one implicit step over the
 /// series. @param time_factor duration of the step over H^2/cv
 double excess_of_step(double time_factor) {
   constexpr int kTerms = 200;
@@ -287,7 +287,7 @@ class Look {
            const std::string& remedy) {
     remarks_.push_back({rank, std::max(1.0, weight), scene_.place(path).fault(finding), remedy});
   }
-  /// Equal steps too few: what comes in the first one flows off within it.
+  /// Of equal steps there are too few: a load that comes in the first one drains within it.
   void at_long_step(double first, double shortest, double diffusivity) {
     constexpr double kMostExcess = 0.04;
     const double way = way_to_drains();

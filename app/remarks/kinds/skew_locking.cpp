@@ -22,7 +22,7 @@ namespace {
 /// Of the strength, where a remark begins.
 constexpr double kMostSkewExcess = 0.1;
 
-/// Whether a material yields, and its skew stress does not: that of grains has a limit unless the case takes it away.
+/// Whether a material yields, and its skew stress does not. The skew stress of grains has a limit unless the case takes it away.
 bool skew_stays_elastic(const Scene& scene, const SceneRegion& region) {
   if (!is_strong(scene, region)) return false;
   if (region.cell != nullptr) {
