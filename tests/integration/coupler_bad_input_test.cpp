@@ -173,11 +173,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than in "
                  "the pair before, 1; found 1"},
         BadInput{
-            "TimeThatIsNone", "pressure: 100 kPa", "pressure: [[0, 0], [abc, 1], [0.5, 1 kPa]]",
+            "TimeThatIsNone", "pressure: 100 kPa", "pressure: [[0, 0], [abc, 1 kPa], [0.5, 1 kPa]]",
             "case.yaml:15: boundary item 4: pressure: expected a number without a unit (% is allowed), found 'abc'"},
         BadInput{
             "TimesOutOfOrderBesideAFault", "pressure: 100 kPa",
-            "pressure: [[0, 0], [1 parsec, 1], [0, 1 kPa]]",
+            "pressure: [[0, 0], [1 parsec, 1 kPa], [0, 1 kPa]]",
             "case.yaml:15: boundary item 4: pressure: expected a number without a unit (% is allowed), found '1 parsec'\n"
             "case.yaml:15: boundary item 4: pressure: the first value of a pair must be larger than in "
             "the pair before, 0; found 0"},
