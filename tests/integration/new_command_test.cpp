@@ -86,7 +86,7 @@ TEST(NewCommand, FootingAndElementAreSound) {
   ASSERT_EQ(checked.status, 0) << checked.errors;
   EXPECT_TRUE(has(checked.out, "no faults; 140 elements")) << checked.out;
   EXPECT_TRUE(has(content(scratch.path() / "ground/case.yaml"), "{on: sides, fix: [u1, w]}"))
-      << "half of a body that could turn in the plane of symmetry is none";
+      << "the plane of symmetry must hold the rotation, or the halves do not fit";
 
   const Outcome element = run_in(scratch.path(), kProgram + " new element -o point --no-pack");
   ASSERT_EQ(element.status, 0) << element.errors;
