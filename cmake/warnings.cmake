@@ -25,3 +25,7 @@ if(POLARGRAIN_SANITIZE)
     target_compile_options(polargrain_options INTERFACE -fno-sanitize=${POLARGRAIN_SANITIZE_WITHOUT})
   endif()
 endif()
+# For code that computes little: nearly as quick to compile as without optimisation. A header that is precompiled with another
+# level of optimisation brings its own, whatever the command says.
+add_library(polargrain_less_optimised INTERFACE)
+target_compile_options(polargrain_less_optimised INTERFACE -O1)
