@@ -31,17 +31,17 @@ case "${1:-}" in
     ;;
   tidy)
     need clang-tidy
-    # Precompiled headers are g++'s: clang reads the headers themselves. And each file by itself, as it was written.
+    # Precompiled headers are g++'s: clang reads the headers themselves, once for all files that are compiled as one.
     commands=$(mktemp -d)
     trap 'rm -rf "$commands"' EXIT
-    cmake --preset release -B "$commands" -DCMAKE_UNITY_BUILD=OFF >/dev/null
+    cmake --preset release -B "$commands" >/dev/null
     sed -i 's/ -Winvalid-pch//g; s/ -include [^ ]*cmake_pch\.hxx//g' "$commands/compile_commands.json"
     folders=("${@:2}")
     ((${#folders[@]})) || folders=(app band common coupler element fem grains_io)
     # Warnings and parameters that g++ knows and clang does not are in the compile commands. The count of what was found in
     # headers of others is not shown.
-    find "${folders[@]}" -name '*.cpp' | sort | xargs -P 2 -n 1 clang-tidy -p "$commands" --quiet \
-      --warnings-as-errors='*' --extra-arg=-Wno-unknown-warning-option \
+    find "${folders[@]/#/$commands/}" -name 'unity_*.cxx' | sort | xargs -P 2 -n 1 clang-tidy -p "$commands" --quiet \
+      --config-file=.clang-tidy --warnings-as-errors='*' --extra-arg=-Wno-unknown-warning-option \
       --extra-arg=-Wno-unused-command-line-argument 2>/dev/null
     ;;
   pages)

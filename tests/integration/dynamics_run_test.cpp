@@ -86,14 +86,10 @@ TEST_F(DynamicsRun, AWaveRunsThroughBoxesAtItsSpeed) {
       "title: 200 spheres\ngrains: 200\ndimension: 3\nscript: cells/spheres_hooke_radii.in\n"
       "sizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\npressure: 100 kPa\nfriction: 0\nseed: 1\n");
   ASSERT_EQ(run_in(scratch_.path(), POLARGRAIN " pack spheres.yaml -o spheres.h5 --quiet").status, 0);
-  for (const char* const packing : {"dense100_seed2.h5", "dense100_seed3.h5"})
-    std::filesystem::copy(kSource / "cases/studies" / packing, scratch_.path());
   for (const auto& [name, material] :
        {std::pair<std::string, std::string>{"law",
                                             "model: elastic, E: 100 MPa, nu: 0.25, Gc: 40 MPa, lc: 5 mm"},
         {"discs", boxes("hooke_radii.in", "packing100.h5")},
-        {"discs, seed 2", boxes("hooke_radii.in", "dense100_seed2.h5")},
-        {"discs, seed 3", boxes("hooke_radii.in", "dense100_seed3.h5")},
         {"spheres", boxes("spheres_hooke_radii.in", "spheres.h5")}}) {
     write_bar("slow.yaml", material,
               "  - {on: right, fix: [u1]}\n  - {on: left, move: {u1: " +
