@@ -242,6 +242,14 @@ Eigen::VectorXd Constraints<dim>::slope(double time) const {
 }
 
 template <int dim>
+Eigen::VectorXd Constraints<dim>::largest() const {
+  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equation_.size()));
+  for (const Given& item : given_)
+    nodal(static_cast<Eigen::Index>(item.entry)) = item.factor * item.value->largest_magnitude();
+  return nodal;
+}
+
+template <int dim>
 Eigen::VectorXd Constraints<dim>::restrict_to_free(const Eigen::VectorXd& forces) const {
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(unknowns_);
   for (std::size_t entry = 0; entry < equation_.size(); ++entry) {

@@ -47,6 +47,9 @@ class Constraints {
   /// Nodal vector: change per time of the given entries just after `time`, zero at the free ones.
   [[nodiscard]] Eigen::VectorXd slope(double time) const;
 
+  /// Nodal vector: the given entries at their largest magnitude at any time, zero at the free ones.
+  [[nodiscard]] Eigen::VectorXd largest() const;
+
   /// Forces on the unknowns, in the order of the equations: the free entries of nodal forces, summed where entries
   /// share an unknown.
   [[nodiscard]] Eigen::VectorXd restrict_to_free(const Eigen::VectorXd& forces) const;

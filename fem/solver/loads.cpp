@@ -278,21 +278,27 @@ Eigen::VectorXd Loads<dim>::slope(double time) const {
 
 template <int dim>
 double Loads<dim>::largest_force() const {
-  return sum_of_forces([](const TimeTable& table) { return table.largest_magnitude(); });
+  return sum_of(false, [](const TimeTable& table) { return table.largest_magnitude(); });
+}
+
+template <int dim>
+double Loads<dim>::largest_moment() const {
+  return sum_of(true, [](const TimeTable& table) { return table.largest_magnitude(); });
 }
 
 template <int dim>
 double Loads<dim>::largest_change(double time) const {
-  return sum_of_forces([time](const TimeTable& table) { return table.largest_change(time); });
+  return sum_of(false, [time](const TimeTable& table) { return table.largest_change(time); });
 }
 
 template <int dim>
 template <class Factor>
-double Loads<dim>::sum_of_forces(Factor factor_of) const {
+double Loads<dim>::sum_of(bool rotations, Factor factor_of) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     for (Eigen::Index entry = 0; entry < size_; ++entry) {
-      if (!is_rotation(dof_at<dim>(entry))) sum += std::abs(part.forces(entry)) * factor_of(*part.factor);
+      if (is_rotation(dof_at<dim>(entry)) == rotations)
+        sum += std::abs(part.forces(entry)) * factor_of(*part.factor);
     }
   }
   return sum;

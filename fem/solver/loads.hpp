@@ -54,7 +54,9 @@ class Loads {
   [[nodiscard]] Eigen::VectorXd linearised(double time, const Eigen::VectorXd& nodal) const;
   /// Sum over all loads and nodes of the largest absolute nodal force (not moments), N/m.
   [[nodiscard]] double largest_force() const;
-  /// The same of what changes after `time`.
+  /// The same of the moments, N.
+  [[nodiscard]] double largest_moment() const;
+  /// The largest forces again, of what changes after `time`.
   [[nodiscard]] double largest_change(double time) const;
 
  private:
@@ -66,8 +68,9 @@ class Loads {
   void add_node_load(const Problem<dim>& problem, const NodeLoad& load);
   void add_body_load(const Problem<dim>& problem, const BodyLoad<dim>& load);
 
+  /// Over the entries of displacements, or of rotations.
   template <class Factor>
-  [[nodiscard]] double sum_of_forces(Factor factor_of) const;
+  [[nodiscard]] double sum_of(bool rotations, Factor factor_of) const;
 
   const Problem<dim>* problem_;
   std::vector<char> there_;  ///< by element; empty: all of them

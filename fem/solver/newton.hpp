@@ -166,6 +166,10 @@ class Newton {
   /// solve() of the tangent factorised last, for forces on the unknowns.
   [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& forces) const;
   void evaluate(Iterate& iterate, StepReport& report);
+  /// A reference force for steps of rotations or moments alone, whose first one no support reacts to by a force: what the
+  /// tangent of the committed state answers to the given values at their largest, the free ones held, with the moments of the
+  /// loads at their largest and what is held back. Moments count over the reference length.
+  [[nodiscard]] double force_of_path() const;
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
   /// Notes how the mesh has moved where elements come that were not there before (SolverState::placed_with).

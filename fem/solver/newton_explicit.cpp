@@ -10,6 +10,17 @@
 namespace polargrain::fem {
 
 template <int dim>
+double Newton<dim>::force_of_path() const {
+  Eigen::VectorXd forces =
+      discretisation.linearised_forces(linearised(state.responses), constraints.largest()).cwiseAbs();
+  if (withheld_.size() > 0) forces += withheld_.cwiseAbs();
+  double sum = loads.largest_moment() / reference_length;
+  for (Eigen::Index entry = 0; entry < constraints.places().mechanics(); ++entry)
+    sum += forces(entry) / (is_rotation(dof_at<dim>(entry)) ? reference_length : 1.0);
+  return sum;
+}
+
+template <int dim>
 Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report) {
   move_to_committed();
   internal_before_ = committed_internal_forces();
@@ -21,12 +32,17 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
         false,
         "a point would be strained by more than `largest_strain` in one explicit step: the nodes move too fast"};
   if (!contributions.is_empty()) contributions.learn(discretisation, state.responses);
+  const double of_path = state.reference_force == 0.0 ? force_of_path() : 0.0;  // the mesh has not moved yet
   evaluate(iterate, report);
   ++report.iterations;
   if (const Response<dim>& worst = worst_response(); worst.quality == Quality::failed)
     return {false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
-  if (!std::isfinite(iterate.residual.force + iterate.residual.moment))
-    return {false, "the forces are not finite"};
+  const auto is_finite = [&] { return std::isfinite(iterate.residual.force + iterate.residual.moment); };
+  if (!is_finite() && state.reference_force == 0.0) {  // forces over none
+    state.reference_force = of_path;
+    iterate.residual = relative(iterate.unbalanced);
+  }
+  if (!is_finite()) return {false, "the forces are not finite"};
   commit(iterate, Balance::within_tolerance, report);
   return {true, ""};
 }

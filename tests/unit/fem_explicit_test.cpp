@@ -432,4 +432,40 @@ TEST(explicit_steps, turn_a_body_without_drag) {
   EXPECT_NEAR(solver.state().internal_work / work, 1.0, 0.1);
 }
 
+// A rotation that is given, or a moment, meets no force of a support in the first step. Newton's method is exact.
+TEST(explicit_steps, begin_where_no_force_reacts) {
+  for (const bool is_given : {true, false}) {
+    const auto problem = [is_given] {
+      Problem<2> made;
+      made.mesh = rectangle({{0.1, 0.2}, {1, 2}});
+      made.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(
+          ElasticLaw<2>({10e6, 0.25, 4e6, 0.02, Vector7::Zero()}));
+      for (const Dof dof : {Dof::u1, Dof::u2, Dof::w})
+        made.prescribed.push_back({"bottom", dof, TimeTable::constant(0.0), {}});
+      if (is_given) {
+        made.prescribed.push_back({"top", Dof::w, TimeTable::ramp(0.02), {}});
+      } else {
+        made.node_loads.push_back({"top", Dof::w, TimeTable::ramp(100.0)});
+      }
+      return made;
+    };
+    Solver<2> newton(problem(), {});
+    ASSERT_TRUE(newton.equilibrate().converged);
+    ASSERT_TRUE(newton.advance(1.0).converged);
+    Solver<2> solver(problem(), {});
+    ASSERT_TRUE(solver.begin_explicit().converged);
+    ASSERT_TRUE(solver.advance_explicit(0.5, 1500).converged);
+    const double reference = solver.state().reference_force;
+    const StepReport report = solver.advance_explicit(1.0, 1500);
+    ASSERT_TRUE(report.converged) << report.message;
+    const Eigen::VectorXd& exact = newton.state().displacement;
+    EXPECT_LT((solver.state().displacement - exact).cwiseAbs().maxCoeff(),
+              0.01 * exact.cwiseAbs().maxCoeff());
+    EXPECT_LT(report.quasi_static.nodes_unbalanced, 0.01);
+    EXPECT_LT(report.moment_residual, 0.01);
+    EXPECT_GT(reference, 0.0);
+    EXPECT_EQ(solver.state().reference_force, reference);
+  }
+}
+
 }  // namespace
