@@ -51,6 +51,7 @@ void measures(const Scene& scene, Remarks& remarks);
 void formulas(const Scene& scene, Remarks& remarks);
 void places_of_monitors(const Scene& scene, Remarks& remarks);
 void ends_of_profiles(const Scene& scene, Remarks& remarks);
+void ends_of_regions(const Scene& scene, Remarks& remarks);
 void parted_curves(const Scene& scene, Remarks& remarks);
 void carried_along(const Scene& scene, Remarks& remarks);
 void narrow_plates(const Scene& scene, Remarks& remarks);

@@ -126,20 +126,18 @@ void make_regions(const Entry& entry, CaseParts& parts) {
       continue;
     }
     const Corners corners = read_corners(regions, member.key);
-    bool found = false;
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      const Eigen::Vector2d centre = mesh.element_positions(static_cast<int>(e)).colwise().mean();
-      if ((centre.array() < corners.low.array()).any() || (centre.array() > corners.high.array()).any())
-        continue;
-      found = true;
-      if (region_of[e] != "rest") {
+    const std::vector<int> found = fem::elements_between(mesh, corners.low, corners.high);
+    for (const int e : found) {
+      std::string& region = region_of[static_cast<std::size_t>(e)];
+      if (region != "rest") {
         regions.fault(member.key,
-                      fmt::format("{}: lies over '{}'; an element has one region", member.key, region_of[e]));
+                      fmt::format("{}: lies over '{}'; an element has one region", member.key, region));
         break;
       }
-      region_of[e] = member.key;
+      region = member.key;
     }
-    if (!found) regions.fault(member.key, fmt::format("{}: the centre of no element lies in it", member.key));
+    if (found.empty())
+      regions.fault(member.key, fmt::format("{}: the centre of no element lies in it", member.key));
   }
   regions.finish();
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)

@@ -99,4 +99,14 @@ Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view 
   return mesh;
 }
 
+std::vector<int> elements_between(const Mesh<2>& mesh, const Eigen::Vector2d& low,
+                                  const Eigen::Vector2d& high) {
+  std::vector<int> found;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    const Eigen::Vector2d centre = mesh.element_positions(e).colwise().mean();
+    if ((centre.array() >= low.array()).all() && (centre.array() <= high.array()).all()) found.push_back(e);
+  }
+  return found;
+}
+
 }  // namespace polargrain::fem

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "fem/mesh/mesh.hpp"
 
@@ -17,5 +18,10 @@ struct RectangleSpecification {
 
 /// @throws RunError when a size or a number of elements is not positive, or the element is unknown.
 Mesh<2> rectangle(const RectangleSpecification& specification, std::string_view element = "Q8R");
+
+/// Elements whose centres lie between two corners or on the sides there.
+/// @param low the lower left one
+std::vector<int> elements_between(const Mesh<2>& mesh, const Eigen::Vector2d& low,
+                                  const Eigen::Vector2d& high);
 
 }  // namespace polargrain::fem

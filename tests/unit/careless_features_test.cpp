@@ -269,6 +269,62 @@ INSTANTIATE_TEST_SUITE_P(
                  "measures 4 elements", Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
+/// A soft layer that two elements hold.
+const std::string kLayered = R"(title: A load on layered ground
+continuum: cauchy
+mesh:
+  rectangle:
+    size: [4 m, 2 m]
+    elements: [16, 8]
+    regions: {layer: [0, 1 m, 4 m, 1.5 m], below: [-1 m, -1 m, 9 m, 1 m]}
+materials:
+  soft: {model: elastic, E: 10 MPa, nu: 0.3}
+  firm: {model: elastic, E: 40 MPa, nu: 0.3}
+regions: {layer: soft, below: firm, rest: firm}
+boundary:
+  - {on: bottom, fix: [u1, u2]}
+  - {on: [left, right], fix: [u1]}
+  - {on: top, pressure: [[0, 0], [1, 20 kPa]]}
+steps: {count: 2, tolerance: 1e-6}
+monitors: {base: {on: bottom, reaction: u2}}
+output: {table: [base]}
+)";
+
+INSTANTIATE_TEST_SUITE_P(
+    EndsOfRegions, CarelessFeatures,
+    ::testing::Values(
+        Careless{"AThinnerLayer", kLayered, "1 m, 4 m, 1.5 m]", "1.2 m, 4 m, 1.5 m]",
+                 "region 'layer' is to measure 0.3 m along 2, from 1.2 m to 1.5 m; of whole elements it "
+                 "measures 0.25 m, from 1.25 m to 1.5 m",
+                 Rank::doubtful},
+        Careless{"AThickerLayer", kLayered, "1 m, 4 m, 1.5 m]", "1.1 m, 4 m, 1.5 m]",
+                 "to measure 0.4 m along 2, from 1.1 m to 1.5 m; of whole elements it measures 0.5 m",
+                 Rank::doubtful},
+        Careless{"AWiderHole", kBank, "void: [0, 10 m, 10 m, 12 m]", "void: [-5 m, 10 m, 9.5 m, 99 m]",
+                 "region 'void' is to measure 9.5 m along 1, from 0 m to 9.5 m; of whole elements it "
+                 "measures 10 m, from 0 m to 10 m",
+                 Rank::doubtful}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(EndsOfRegions, OddFeatures,
+                         ::testing::Values(Careless{"ALayerOfWholeElements", kLayered, "", ""},
+                                           Careless{"ALayerBeyondTheMesh", kLayered, "[0, 1 m, 4 m, 1.5 m]",
+                                                    "[-3 m, 1 m, 7 m, 1.5 m]"},
+                                           Careless{"ALayerOfSixths", kLayered, "elements: [16, 8]",
+                                                    "elements: [16, 12]"},
+                                           Careless{"ARoundedLayer", kLayered, "1.5 m]", "1.501 m]"}),
+                         [](const auto& info) { return info.param.name; });
+
+/// One interface of layers is told once, with the number of elements that fits: 2 m, 1.5 m and 1.2 m are 20, 15 and 12 of 0.1 m.
+TEST(EndsOfRegions, OfLayersThatMeetAreToldOnce) {
+  const app::Remarks remarks =
+      remarks_of({"LayersThatMeet", replaced(kLayered, "[-1 m, -1 m, 9 m, 1 m]", "[-1 m, -1 m, 9 m, 1.2 m]"),
+                  "1 m, 4 m, 1.5 m]", "1.2 m, 4 m, 1.5 m]"});
+  ASSERT_EQ(remarks.size(), 1u) << app::text_of(remarks, true);
+  EXPECT_EQ(remarks.front().remedy,
+            "end it at 1 m or 1.25 m, give 20 elements along 2, or make the mesh with Gmsh");
+}
+
 const std::string kReadAlong = "monitors: {base: {on: bottom, reaction: u2}}\n";
 
 INSTANTIATE_TEST_SUITE_P(
