@@ -2,6 +2,7 @@
 // polargrain new: what it writes is sound and runs as it is, in a folder of its own; what it refuses it says.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -76,6 +77,22 @@ TEST(NewCommand, WhatIsAskedForIsWhatIsWritten) {
   EXPECT_FALSE(has(text, "@")) << text;
   EXPECT_TRUE(has(content(mine / "packing.yaml"), "grains: 400 ")) << content(mine / "packing.yaml");
   EXPECT_TRUE(has(content(mine / "packing.yaml"), "pressure: 200 kPa\n"));
+}
+
+// Of each kind that takes a size: strains and stresses would be off by the ratio of the sizes.
+TEST(NewCommand, FormulasDivideByTheSizeAskedFor) {
+  const Scratch scratch("new_sizes");
+  for (const auto& [kind, size, section] :
+       {std::array<std::string, 3>{"biaxial", "size: [0.25 m, 1.3 m]", "0.25 m"},
+        std::array<std::string, 3>{"triaxial3d", "size: [0.25 m, 0.25 m, 1.3 m]", "0.25 m * 0.25 m"}}) {
+    const Outcome written = run_in(scratch.path(), kProgram + " new " + kind + " -o " + kind +
+                                                       " --size 25cm 1300mm --pressure 70kPa --no-pack");
+    ASSERT_EQ(written.status, 0) << written.errors;
+    const std::string text = content(scratch.path() / kind / "case.yaml");
+    EXPECT_TRUE(has(text, size)) << text;
+    EXPECT_TRUE(has(text, "axial_strain: -shortening / 1.3 m\n")) << text;
+    EXPECT_TRUE(has(text, "stress_ratio: -top_force / (" + section + " * 70 kPa)\n")) << text;
+  }
 }
 
 TEST(NewCommand, FootingAndElementAreSound) {
