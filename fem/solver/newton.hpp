@@ -166,9 +166,9 @@ class Newton {
   /// solve() of the tangent factorised last, for forces on the unknowns.
   [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& forces) const;
   void evaluate(Iterate& iterate, StepReport& report);
-  /// A reference force for steps of rotations or moments alone, whose first one no support reacts to by a force: what the
-  /// tangent of the committed state answers to the given values at their largest, the free ones held, with the moments of the
-  /// loads at their largest and what is held back. Moments count over the reference length.
+  /// A reference force for steps of rotations or moments alone: in the first one supports react by moments only. The tangent
+  /// of the committed state gives the forces that hold the free entries while the given ones are at their largest. The largest
+  /// moments of the loads and the forces held back are added. Moments count over the reference length.
   [[nodiscard]] double force_of_path() const;
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();

@@ -38,7 +38,7 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
   if (const Response<dim>& worst = worst_response(); worst.quality == Quality::failed)
     return {false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
   const auto is_finite = [&] { return std::isfinite(iterate.residual.force + iterate.residual.moment); };
-  if (!is_finite() && state.reference_force == 0.0) {  // forces over none
+  if (!is_finite() && state.reference_force == 0.0) {  // the reference was zero
     state.reference_force = of_path;
     iterate.residual = relative(iterate.unbalanced);
   }

@@ -21,8 +21,8 @@ struct SolverOptions {
   double force_tolerance = 1e-8;
   double moment_tolerance = 1e-8;
   /// N per m of thickness; 0: sum of the absolute nodal loads at their largest plus the absolute reactions to
-  /// the initial stress; when these are zero, the absolute reactions after the first iteration ever made, or, where an explicit
-  /// step has none, Newton::force_of_path.
+  /// the initial stress; when these are zero, the absolute reactions after the first iteration ever made; in an explicit
+  /// step without reactions, Newton::force_of_path.
   /// Fixed from then on.
   double reference_force = 0.0;
   /// m; 0: square root of the mean area of the elements.
