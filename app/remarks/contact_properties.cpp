@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
-#include <sstream>
 
-#include "grains_io/script.hpp"
+#include "grains_io/contact_models.hpp"
+#include "grains_io/script_words.hpp"
 
 namespace polargrain::app {
 namespace {
-
-using Variables = std::map<std::string, std::string>;
 
 struct PropertyReader {
   const char* property;
@@ -43,20 +41,6 @@ const std::set<std::string> kKnownModels{"hooke",  "hertz", "hooke/radii", "hist
                                          "li_chu", "off",   "on",          "cdt",     "epsd",
                                          "epsd2",  "epsd3", "sjkr",        "sjkr2"};
 
-std::vector<std::string> words_of(const std::string& text, const Variables& variables) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) {
-    if (word.starts_with('#')) break;
-    if (word.size() > 3 && word.starts_with("${") && word.ends_with('}')) {
-      const auto known = variables.find(word.substr(2, word.size() - 3));
-      if (known != variables.end()) word = known->second;
-    }
-    words.push_back(word);
-  }
-  return words;
-}
-
 std::optional<double> number_of(const std::string& word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -65,9 +49,7 @@ std::optional<double> number_of(const std::string& word) {
 }
 
 void take(const std::vector<std::string>& words, const Fault& place, ContactScript& script) {
-  if (words.front() == "pair_style" && words.size() > 2 && words[1] == "gran") {
-    for (std::size_t k = 2; k + 1 < words.size(); k += 2) script.models[words[k]] = words[k + 1];
-  } else if (words.front() == "neighbor" && words.size() > 1) {
+  if (words.front() == "neighbor" && words.size() > 1) {
     script.neighbour_distance = number_of(words[1]);
     script.neighbour_place = place;
   } else if (words.front() == "fix" && words.size() > 5 && words[3] == "property/global") {
@@ -83,14 +65,9 @@ void take(const std::vector<std::string>& words, const Fault& place, ContactScri
 
 ContactScript contact_script_of(const CellDefinition& cell) {
   ContactScript script;
-  Variables variables;
-  for (const ScriptCommand& command : commands_of_script(cell.script, cell.script_file)) {
-    const std::vector<std::string> words = words_of(command.text, variables);
-    if (words.empty()) continue;
-    const bool is_variable = words.size() > 3 && words[0] == "variable";
-    if (is_variable && words[1] != "neighbour_distance") variables.emplace(words[1], words[3]);
-    take(words, {command.file, command.line, ""}, script);
-  }
+  const std::vector<ScriptWords> all = words_of_script(cell.script, cell.script_file);
+  script.models = contact_models_of(all);
+  for (const ScriptWords& command : all) take(command.words, {command.file, command.line, ""}, script);
   return script;
 }
 

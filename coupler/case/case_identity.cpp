@@ -8,6 +8,7 @@
 #include "coupler/case/data_files.hpp"
 #include "coupler/case/measured_interface.hpp"
 #include "coupler/case/measured_length.hpp"
+#include "grains_io/contact_models.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -36,8 +37,12 @@ void collect(const Entry& entry, const std::string& key, const std::filesystem::
   }
   if (entry.kind != Entry::Kind::scalar) return;
   identity.values[key] = entry.text;
-  if (const auto file = find_data_file(entry.text, directory))
-    identity.files[key] = name_of_content(*file, key);
+  const auto file = find_data_file(entry.text, directory);
+  if (!file) return;
+  identity.files[key] = name_of_content(*file, key);
+  if (!key.ends_with("script")) return;
+  if (const std::string springs = springs_of_script(text_of_script(*file)); !springs.empty())
+    identity.values[key + kSprings] = springs;
 }
 
 void collect_files(const Entry& entry, const std::string& key, const std::filesystem::path& directory,
@@ -57,7 +62,8 @@ void collect_files(const Entry& entry, const std::string& key, const std::filesy
 
 bool matters(const std::string& key) {
   return key != "title" && key != "output.checkpoint_minutes" && key.rfind("workers.", 0) != 0 &&
-         key.rfind("output.table", 0) != 0 && key.rfind("output.grains", 0) != 0;
+         key.rfind("output.table", 0) != 0 && key.rfind("output.grains", 0) != 0 &&
+         !key.ends_with(kSprings);  // another script is told as such
 }
 
 std::string shown(const std::map<std::string, std::string>& values, const std::string& key) {

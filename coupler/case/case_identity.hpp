@@ -9,10 +9,13 @@
 
 namespace polargrain::coupler {
 
+/// Behind the key of a script: what its contacts have for springs (springs_of_script).
+inline constexpr const char* kSprings = ".springs of contacts";
+
 /// The identity of a case: every value as it was written, with --set, and the content of every file
 /// that a value names. Comments, the order of keys and where the files lie do not matter.
 struct CaseIdentity {
-  std::map<std::string, std::string> values;  ///< by key: "steps.count", "boundary.2.move.u2"
+  std::map<std::string, std::string> values;  ///< by key: "steps.count", "boundary.2.move.u2"; kSprings too
   std::map<std::string, std::string> files;   ///< key of the value that names the file: name of its content
 };
 

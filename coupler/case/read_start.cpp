@@ -73,6 +73,13 @@ void check_materials(const Entry& start, const CaseIdentity& before, const CaseI
           "the rotations of its grains are {} in '{}' and {} here; a box goes over to the same alone: set "
           "'rotations: {}'",
           rotations_of(before, key_before), run, rotations_of(now, key), rotations_of(before, key_before)));
+    } else if (const std::string springs = value_of(before.values, key_before + "script" + kSprings),
+               springs_now = value_of(now.values, key + "script" + kSprings);
+               !springs.empty() && springs != springs_now) {  // empty: a run of an older version, too
+      fault(fmt::format(
+          "its contacts are '{}' by {} and were '{}' in '{}'; a box goes over to the same contact models alone: "
+          "name the script of that run, or give its models in 'pair_style'",
+          springs_now, value_of(now.values, key + "script"), springs, run));
     }
   }
 }
