@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -17,6 +19,7 @@
 
 #include "common/plain_text.hpp"
 #include "common/regular_file.hpp"
+#include "coupler/case/quantity.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -236,6 +239,46 @@ Entry* step_into(Entry& from, const std::string& key, const Fault& no_such_place
   return &from.members.back().value;
 }
 
+struct Measured {
+  double number;
+  std::optional<UnitAhead> unit;
+};
+
+/// "5 kPa"; nothing where the text is no number with a unit behind it, or without one.
+std::optional<Measured> measured(std::string_view text) {
+  Measured found{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), found.number);
+  if (error != std::errc() || found.number == 0.0) return {};
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  if (text.empty()) return found;
+  found.unit = unit_ahead(text);
+  if (!found.unit || found.unit->length != text.size()) return {};
+  return found;
+}
+
+/// Plain numbers of options are in SI units, as scripts write them. One that is far from the value of the file, and would be near
+/// it in the unit there, lacks that unit.
+/// @throws InputError where a number of `value` does
+void refuse_forgotten_units(const Entry& of_file, const Entry& value) {
+  constexpr double kFar = 100.0;  // times; kPa, mm and d are further from their SI units
+  if (of_file.kind != value.kind) return;
+  if (value.kind == Entry::Kind::sequence && value.items.size() == of_file.items.size())
+    for (std::size_t k = 0; k < value.items.size(); ++k)
+      refuse_forgotten_units(of_file.items[k], value.items[k]);
+  if (value.kind != Entry::Kind::scalar) return;
+  const std::optional<Measured> before = measured(of_file.text);
+  const std::optional<Measured> now = measured(value.text);
+  if (!before || !before->unit || !now || now->unit) return;
+  const auto is_far = [](double ratio) { return std::abs(std::log(ratio)) > std::log(kFar); };
+  const double ratio = std::abs(now->number / before->number);
+  if (!is_far(ratio / before->unit->factor) || is_far(ratio)) return;
+  throw InputError(value.fault(fmt::format(
+      "'{0}' has no unit and is {0} {1}, where the case has '{2}'; write '{0} {3}', or '{0} {1}' if that is meant",
+      value.text, si_unit(before->unit->dimension), of_file.text,
+      of_file.text.substr(of_file.text.size() - before->unit->length))));
+}
+
 }  // namespace
 
 const Entry* Entry::find(const std::string& key) const {
@@ -294,6 +337,7 @@ void apply_setting(Entry& document, const std::string& setting) {
     place = step_into(*place, key, fault);
     so_far += (so_far.empty() ? "" : ".") + key;
   }
+  refuse_forgotten_units(*place, value);
   *place = std::move(value);
 }
 

@@ -40,7 +40,7 @@ Entry load_document(const std::filesystem::path& file);
 
 /// Puts `setting`, "steps.count=10" or "boundary.1.pressure=50 kPa", into a document: keys and numbers of
 /// sequence items (from 0) down to the value, which is YAML itself. Missing maps on the way are made.
-/// @throws InputError when it has no '=', or the way leads through something that is no map or sequence.
+/// @throws InputError when it has no '=', the way leads through something that is no map or sequence, or a number has lost its unit.
 void apply_setting(Entry& document, const std::string& setting);
 
 }  // namespace polargrain::coupler

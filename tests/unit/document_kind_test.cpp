@@ -25,6 +25,44 @@ std::string said_of(const std::vector<std::string>& keys, DocumentKind expected)
   return {};
 }
 
+/// The message of apply_setting; empty: it is taken.
+std::string said_of_setting(const std::string& of_file, const std::string& of_option) {
+  Entry document;
+  document.kind = Entry::Kind::map;
+  apply_setting(document, "value=" + of_file);
+  try {
+    apply_setting(document, "value=" + of_option);
+  } catch (const InputError& error) {
+    return error.faults().front().message;
+  }
+  return {};
+}
+
+TEST(Settings, LoseNoUnit) {
+  EXPECT_EQ(
+      said_of_setting("5 kPa", "8"),
+      "'8' has no unit and is 8 Pa, where the case has '5 kPa'; write '8 kPa', or '8 Pa' if that is meant");
+  for (const auto& [of_file, of_option] :
+       std::vector<std::pair<std::string, std::string>>{{"20MPa", "30"},
+                                                        {"5 mm", "8"},
+                                                        {"-4 mm", "6"},
+                                                        {"[[0, 0], [1 d, 50 kPa]]", "[[0 d, 0], [1 d, 30]]"},
+                                                        {"18 kN/m3", "20"}})
+    EXPECT_NE(said_of_setting(of_file, of_option), "") << of_option;
+  // Plain numbers of scripts are in SI units.
+  for (const auto& [of_file, of_option] :
+       std::vector<std::pair<std::string, std::string>>{{"5 kPa", "8e3"},
+                                                        {"5 kPa", "8 Pa"},
+                                                        {"5 kPa", "0"},
+                                                        {"5 kPa", "80"},
+                                                        {"5000", "8"},
+                                                        {"30 deg", "0.5"},
+                                                        {"5 mm", "8e-3"},
+                                                        {"1e-5", "30"},
+                                                        {"cell", "elastic"}})
+    EXPECT_EQ(said_of_setting(of_file, of_option), "") << of_option;
+}
+
 TEST(DocumentKind, NamesWhatAFileIsAndWhoReadsIt) {
   using enum DocumentKind;
   const std::vector<std::pair<DocumentKind, std::vector<std::string>>> files{
