@@ -9,7 +9,7 @@
 
 namespace polargrain::coupler {
 
-/// Behind the key of a script: what its contacts have for springs (springs_of_script).
+/// Follows the key of a script in the key of the springs of its contacts (springs_of_script).
 inline constexpr const char* kSprings = ".springs of contacts";
 
 /// The identity of a case: every value as it was written, with --set, and the content of every file
