@@ -14,7 +14,6 @@
 #include "coupler/case/quantity.hpp"
 #include "coupler/case/stress_at_end.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
-#include "fem/mesh/box_around.hpp"
 #include "fem/solver/end_of_run.hpp"
 #include "fem/solver/later_regions.hpp"
 #include "fem/solver/stabilisation.hpp"
@@ -135,10 +134,20 @@ RunBefore run_before_of(const Checkpoint& end, const std::string& name,
   for (const std::string key : {"continuum", "continuum.kind"})
     if (const auto value = end.identity.values.find(key); value != end.identity.values.end())
       before.continuum = value->second == "cauchy" ? fem::Continuum::cauchy : fem::Continuum::cosserat;
-  if (!body || body->mesh.nodes.empty()) return before;
-  const auto box = fem::box_around(body->mesh);
-  before.least.assign(box.least.begin(), box.least.end());
-  before.largest.assign(box.largest.begin(), box.largest.end());
+  if (!body) return before;
+  const std::vector<char> used = fem::nodes_of_elements(body->mesh, body->there);
+  for (std::size_t node = 0; node < used.size(); ++node) {
+    if (used[node] == 0) continue;
+    const auto& place = body->mesh.nodes[node];
+    if (before.least.empty()) {
+      before.least.assign(place.begin(), place.end());
+      before.largest = before.least;
+    }
+    for (std::size_t i = 0; i < before.least.size(); ++i) {
+      before.least[i] = std::min(before.least[i], place(static_cast<Eigen::Index>(i)));
+      before.largest[i] = std::max(before.largest[i], place(static_cast<Eigen::Index>(i)));
+    }
+  }
   return before;
 }
 
@@ -220,10 +229,10 @@ void check_problem(const Entry& start, Checkpoint& end, const fem::Problem<dim>&
                    const std::string& run, CaseParts& parts) {
   const std::optional<fem::EndOfRun<dim>> body = body_at_end<dim>(end);
   RunBefore& before = parts.result.run_before.emplace(run_before_of(end, run, body));
-  check_body(start, before, problem, parts);
   if (!body) return;
-  if (parts.faults.empty()) add_stress_at_end(end, *body, problem, before);
   if (parts.faults.empty()) check_regions_there(start, *body, problem, regions_of(end.identity), run, parts);
+  if (parts.faults.empty()) check_body(start, before, problem, parts);
+  if (parts.faults.empty()) add_stress_at_end(end, *body, problem, before);
   check_mesh(start, body->mesh, problem, run, parts);
 }
 

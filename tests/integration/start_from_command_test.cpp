@@ -98,6 +98,13 @@ TEST_F(StartFromCommand, GroundThatHasGoneIsAFault) {
   EXPECT_NE((refused.out + refused.errors).find("region 'cap' had been removed at the end of 'first'"),
             std::string::npos)
       << refused.out << refused.errors;
+  // Without the ground that had gone nothing is cut off.
+  std::string left = replaced_in(dug("1 kPa", "rest: soil", "count: 1, "), "{cap:", "{void:");
+  left = replaced_in(replaced_in(left, "{on: top,", "{on: left,"), "to: [0.5 m, 1 m]", "to: [0.5 m, 0.5 m]");
+  write(scratch_.path() / "second.yaml", left + "start_from: first\n");
+  const Outcome taken = program("check second.yaml");
+  EXPECT_EQ(taken.status, 0) << taken.errors;
+  EXPECT_EQ(taken.out.find("is left out has carried"), std::string::npos) << taken.out;
 }
 
 TEST_F(StartFromCommand, ARunThatFailedIsRemarked) {
