@@ -47,7 +47,10 @@ class StrengthReduction {
  private:
   void check_materials() const {
     std::vector<Fault> faults;
-    bool has_strength = false;
+    bool has_strength =
+        std::ranges::any_of(case_.template problem_of<dim>().contributions, [](const auto& contribution) {
+          return dynamic_cast<const fem::Interface<dim>*>(contribution.get()) != nullptr;
+        });
     for (const auto& [name, recipe] : case_.materials) {
       const coupler::Weakened weak = recipe->weakened(1.0);
       has_strength = has_strength || weak.recipe != nullptr;
@@ -64,8 +67,8 @@ class StrengthReduction {
            "leave out 'water'"});
     look_at_movements(faults);
     if (faults.empty() && !has_strength)
-      faults.push_back(
-          {case_.file.string(), 0, "no material of the case has a strength that could be reduced"});
+      faults.push_back({case_.file.string(), 0,
+                        "no material or interface of the case has a strength that could be reduced"});
     if (!faults.empty()) throw InputError(faults);
   }
 
