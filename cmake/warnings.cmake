@@ -26,6 +26,6 @@ if(POLARGRAIN_SANITIZE)
   endif()
 endif()
 # For code that computes little: nearly as quick to compile as without optimisation. A header that is precompiled with another
-# level of optimisation brings its own, whatever the command says.
+# level of optimisation brings its own, whatever the command says. It sees less, and g++ 12 takes more for uninitialised that is not.
 add_library(polargrain_less_optimised INTERFACE)
-target_compile_options(polargrain_less_optimised INTERFACE -O1)
+target_compile_options(polargrain_less_optimised INTERFACE -O1 -Wno-maybe-uninitialized)

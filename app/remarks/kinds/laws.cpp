@@ -60,7 +60,7 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
       remarks.push_back(
           {Rank::wrong, strain / kMostElasticStrain,
            place.fault(fmt::format(
-               "material '{}': E is {:.4g} kPa, and loads, weight and stress at time zero reach {:.4g} kPa: that "
+               "material '{}': E is {:.4g} kPa, and loads, weight and initial stress reach {:.4g} kPa: that "
                "alone is an elastic strain of {:.3g} %",
                region.material, 1e-3 * *young, 1e-3 * scale, 100.0 * strain)),
            "check the unit of E (soils: 5 to 500 MPa) and of the loads"});
@@ -68,7 +68,7 @@ void stiffness_of_laws(const Scene& scene, Remarks& remarks) {
       remarks.push_back(
           {Rank::wrong, kLeastElasticStrain / strain,
            place.fault(fmt::format(
-               "material '{}': E is {:.4g} GPa, and loads, weight and stress at time zero reach {:.4g} kPa: an elastic "
+               "material '{}': E is {:.4g} GPa, and loads, weight and initial stress reach {:.4g} kPa: an elastic "
                "strain of {:.1e}",
                region.material, 1e-9 * *young, 1e-3 * scale, strain)),
            "check the unit of E (soils: 5 to 500 MPa) and of the loads"});
