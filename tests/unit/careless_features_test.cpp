@@ -457,8 +457,7 @@ monitors: {base: {on: bottom, reaction: u2}}
 TEST(StiffLaws, OfConcreteAndSteelAreRight) {
   const auto is_told = [](const std::string& law) {
     const app::Remarks remarks = remarks_of({"StiffLaw", kSlab, "model: elastic, E: 30 GPa, nu: 0.2", law});
-    return is_told_of_features(remarks, "GPa, and loads, weight and initial stress reach 2 kPa",
-                               Rank::wrong);
+    return is_told_of_features(remarks, "GPa, and loads, weight and initial stress reach 2 kPa", Rank::wrong);
   };
   EXPECT_FALSE(is_told("model: elastic, E: 30 GPa, nu: 0.2"));
   EXPECT_FALSE(is_told("model: elastic, E: 210 GPa, nu: 0.3"));
