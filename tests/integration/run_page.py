@@ -6,8 +6,9 @@
 
 - Indented lines whose first word is a word in small letters are commands; a line that ends with a backslash goes on in the next one.
 - A fenced block whose first line is a comment with a file name, "# case.yaml", is written to that file.
-- <!-- check: COMMANDS --> are commands of the test, which readers do not see. They have two functions:
-  value FILE COLUMN ROW (of a CSV file, rows from 1 behind the head, $ for the last one) and near A B TOLERANCE (relative).
+- <!-- check: COMMANDS --> are commands of the test, which readers do not see. They have three functions:
+  value FILE COLUMN ROW (of a CSV file, rows from 1 behind the head, $ for the last one), near A B TOLERANCE (relative) and
+  between A LOW HIGH (the magnitude of A).
 - <!-- not run: REASON --> leaves out the indented block that follows.
 
 A page without any command is a fault, unless it says "not run".
@@ -30,6 +31,8 @@ value() { awk -F, -v name="$2" -v row="$3" 'NR == 1 { for (k = 1; k <= NF; ++k) 
   NR > 1 { last = $c } NR == row + 1 { found = $c } END { print row == "$" ? last : found }' "$1"; }
 near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= t * (b < 0 ? -b : b)) }' ||
   fail "expected $2, found $1"; }
+between() { awk -v a="$1" -v low="$2" -v high="$3" 'BEGIN { if (a < 0) a = -a; exit !(low < a && a < high) }' ||
+  fail "$1 is not between $2 and $3"; }
 """
 COMMENT = re.compile(r"<!-- (check|not run): (.*?) -->", re.S)
 FILE = re.compile(r"^# ([\w./-]+\.\w+)\b")
