@@ -60,6 +60,8 @@ const std::vector<NewKind>& new_kinds() {
     NewCase in_space;
     in_space.spheres = true;
     in_space.grains = 300;
+    NewCase wall = sparing;
+    wall.scheme = "cell";
     NewCase column = in_space;
     column.scheme = "adaptive";
     column.width = 0.1;
@@ -81,7 +83,9 @@ const std::vector<NewKind>& new_kinds() {
         {"excavation",
          "a pit behind an anchored sheet pile, dug in stages, in ground of a law, no grains",
          {}},
-        {"quay", "an anchored quay wall in water, dredged in stages, at low water, in ground of a law", {}},
+        {"quay",
+         "an anchored quay wall in water, dredged in stages, at low water, in ground of a law; with --grains of boxes behind the wall",
+         of_packing, wall},
         {"element", "a laboratory test of one box of grains, for polargrain element", with({})},
         {"triaxial", "a triaxial test of one box of spheres, for polargrain element", with({}), in_space},
         {"triaxial3d", "compression of a square column of spheres between rough plates, in space",
@@ -96,8 +100,8 @@ const std::vector<NewKind>& new_kinds() {
 }
 
 /// Whether it is a ready case of a law, without a packing.
-bool is_of_law(const NewKind& kind) {
-  return kind.name == "slope" || kind.name == "excavation" || kind.name == "quay";
+bool is_of_law(const NewKind& kind, const NewOptions& options) {
+  return kind.name == "slope" || kind.name == "excavation" || (kind.name == "quay" && options.grains == 0);
 }
 
 /// Whether it is a test of one box of grains and no case.
@@ -125,7 +129,7 @@ void refuse_other_options(const NewKind& kind, const CLI::App& command) {
              "new {}: {} is not for this kind{}", kind.name, name,
              kind.name == "slope"
                  ? "; a slope begins without stress, boxes of grains under the pressure of their packing"
-             : is_of_law(kind)
+             : kind.options.empty()
                  ? "; its ground begins with the stress of its depth, boxes of grains under one pressure"
                  : fmt::format("; it takes {}", fmt::join(kind.options, ", ")))});
   }
@@ -201,10 +205,14 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
     files.front().text = kSlopeHead + files.front().text;
     return files;
   }
-  if (kind.name == "excavation" || kind.name == "quay")
-    return {{"case.yaml", (kind.name == "quay" ? kQuayHead : kExcavationHead) +
-                              brought_file("cases/" + kind.name + "/case.yaml")}};
+  if (kind.name == "excavation")
+    return {{"case.yaml", kExcavationHead + brought_file("cases/excavation/case.yaml")}};
   std::vector<NewFile> files;
+  if (kind.name == "quay") {
+    const std::string of_law = kQuayHead + brought_file("cases/quay/case.yaml");
+    if (is_of_law(kind, options)) return {{"case.yaml", of_law}};
+    files.push_back({"case.yaml", quay_on_grains_text(what, of_law)});
+  }
   if (kind.name == "biaxial") files.push_back({"case.yaml", biaxial_text(what)});
   if (is_test(kind)) files.push_back({"test.yaml", element_text(what)});
   if (kind.name == "triaxial3d") files.push_back({"case.yaml", triaxial_in_space_text(what)});
@@ -237,6 +245,10 @@ std::vector<NewFile> new_files(const NewOptions& options, const NewKind& kind) {
 int write_new(const NewOptions& options, const CLI::App& command, const PackingTools& tools) {
   const NewKind& kind = kind_named(options.kind);
   refuse_other_options(kind, command);
+  if (kind.name == "quay" && options.grains == 0 &&
+      command.count("--pressure") + command.count("--rolling") > 0)
+    throw InputError(
+        {"", 0, "new quay: --pressure and --rolling go with --grains; without it a law is the ground"});
   check_directory(options.directory);
   const std::vector<NewFile> files = new_files(options, kind);
   std::filesystem::create_directories(options.directory);
@@ -247,7 +259,7 @@ int write_new(const NewOptions& options, const CLI::App& command, const PackingT
   }
   tell(stdout, "{}: {}\n", options.directory.string(), names);
   const std::filesystem::path packing = options.directory / "packing.h5";
-  const bool has_packing = !is_of_law(kind);
+  const bool has_packing = !is_of_law(kind, options);
   if (has_packing && !options.no_pack) {
     PackOptions packs;
     packs.specification_file = options.directory / "packing.yaml";
@@ -294,8 +306,9 @@ Command add_new(CLI::App& program, const Grains& grains) {
       ->required()
       ->type_name("DIR");
   command
-      .add_option("--grains", options->grains,
-                  "Grains of the packing [400; footing and mesh 100, triaxial and in space 300]")
+      .add_option(
+          "--grains", options->grains,
+          "Grains of the packing [400; footing and mesh 100, triaxial and in space 300; a quay needs it for boxes]")
       ->type_name("N")
       ->check(CLI::Range(4, 20000));
   command

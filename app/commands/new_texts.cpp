@@ -314,6 +314,22 @@ std::string footing_text(const NewCase& what) {
                                {"PRESSURE", pascals(what.pressure)}});
 }
 
+std::string quay_on_grains_text(const NewCase& what, std::string of_law) {
+  const auto replace = [&of_law](const std::string& found, const std::string& text) {
+    const std::size_t at = of_law.find(found);
+    if (at == std::string::npos) throw RunError("cases/quay/case.yaml is not that of this version");
+    of_law.replace(at, found.size(), text);
+  };
+  replace("materials:\n",
+          fmt::format("materials:\n"
+                      "  grains:                               # {} discs at each of 96 points\n"
+                      "    {{model: cell, packing: packing.h5, script: cell.in}}\n",
+                      what.grains));
+  replace("near: sand", "near: grains");
+  replace("  # behind the wall: a material of its own when you like", "  # behind the wall");
+  return of_law;
+}
+
 std::string triaxial_in_space_text(const NewCase& what) {
   const double across = what.width / what.columns;
   return filled(

@@ -31,6 +31,8 @@ std::string footing_text(const NewCase& what);
 std::string triaxial_in_space_text(const NewCase& what);
 /// Text of a case of a square footing on grains in space, of which a quarter is computed.
 std::string footing_in_space_text(const NewCase& what);
+/// The case of a quay wall, with boxes of grains behind the wall. @param of_law its text with the same law everywhere
+std::string quay_on_grains_text(const NewCase& what, std::string of_law);
 /// Text of a specification of an element test of the packing.
 std::string element_text(const NewCase& what);
 /// Text of a case on a mesh of the user's own: the lowest boundary is held, all others carry the pressure of the

@@ -207,6 +207,21 @@ TEST(NewCommand, AQuayIsCheckedStrictly) {
   EXPECT_TRUE(has(strict.out, "needs no workers")) << strict.out;
 }
 
+// Its one remark is true: boxes soften behind their peak, and elements of a metre have no length.
+TEST(NewCommand, AQuayMayHaveBoxesBehindTheWall) {
+  const Scratch scratch("new_quay_on_grains");
+  const Outcome written = run_in(scratch.path(), kProgram + " new quay -o quay --grains 60 --rolling");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  const Outcome checked = check_moved(scratch, "quay");
+  EXPECT_EQ(checked.status, 0) << checked.out << checked.errors;
+  EXPECT_TRUE(has(checked.out, "region 'near' (grains): elements of 1 m; 60 grains a cell")) << checked.out;
+  EXPECT_TRUE(has(checked.out, "1 remark on the case")) << checked.out;
+  const Outcome bare = run_in(scratch.path(), kProgram + " new quay -o bare --rolling");
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_TRUE(has(bare.errors, "--pressure and --rolling go with --grains")) << bare.errors;
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "bare"));
+}
+
 TEST(NewCommand, AMeshOfOnesOwnIsHeldAtItsLowestBoundary) {
   const Scratch scratch("new_mesh");
   const Outcome written = run_in(scratch.path(), kProgram + " new mesh --mesh '" + kSource +

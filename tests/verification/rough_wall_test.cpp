@@ -19,10 +19,11 @@ double coefficient(int elements, const std::string& way, int steps) {
       std::filesystem::temp_directory_path() / ("rough_wall." + std::to_string(getpid()) + ".yaml");
   std::ofstream(file)
       << "title: a rough wall\n"
+         "continuum: cauchy\n"
          "mesh:\n  rectangle:\n    size: [14 m, 6 m]\n    elements: ["
       << 14 * elements / 4 << ", " << 6 * elements / 4
       << "]\n    lines: {face: [0, 2 m, 0, 6 m], below: [0, 0, 0, 2 m]}\n"
-         "materials: {sand: {model: elastoplastic, E: 20 MPa, nu: 0.25, Gc: 4 MPa, lc: 10 mm, "
+         "materials: {sand: {model: elastoplastic, E: 20 MPa, nu: 0.25, "
          "friction_angle: 30 deg, dilatancy_angle: 30 deg, cohesion: 0.1 kPa}}\n"
          "regions: {all: sand}\n"
          "interfaces:\n"
@@ -55,24 +56,23 @@ double coefficient(int elements, const std::string& way, int steps) {
 }
 
 // The foot is singular: the error falls about like the element, so two meshes give the value of none. Slip lines with the surcharge
-// superposed have 0.2805 and 4.886; the cohesion takes 2 c sqrt(Ka) H, or adds as much with Kp.
+// superposed have 0.2805 and 4.886; the cohesion takes 2 c sqrt(Ka) H, or adds as much with Kp. Superposition errs on the low side
+// in passive pressure. In a micropolar continuum the same meshes give 0.274 and 5.12, 32 elements 4.98 drawn on.
 TEST(RoughWall, ActivePressureMeetsSlipLines) {
   const double coarse = coefficient(8, "-40 mm", 12);
   const double fine = coefficient(16, "-40 mm", 12);
   const double drawn_on = 2.0 * fine - coarse;
   std::cout << "[figure] Ka of a rough wall: " << coarse << ", " << fine << ", drawn on " << drawn_on << '\n';
-  EXPECT_NEAR(drawn_on, 0.2805 - 0.0024, 0.02 * 0.2805);
+  EXPECT_NEAR(drawn_on, 0.2805 - 0.0024, 0.01 * 0.2805);
 }
 
-// The passive side converges more slowly: 6 % above with 16 elements, 5 % drawn on.
-TEST(RoughWall, PassivePressureComesDownTowardsSlipLines) {
+TEST(RoughWall, PassivePressureMeetsSlipLines) {
   const double coarse = coefficient(8, "300 mm", 12);
   const double fine = coefficient(16, "300 mm", 12);
   const double drawn_on = 2.0 * fine - coarse;
   std::cout << "[figure] Kp of a rough wall: " << coarse << ", " << fine << ", drawn on " << drawn_on << '\n';
-  EXPECT_LT(fine, coarse);
-  EXPECT_GT(drawn_on, 4.896);  // an upper bound, as displacements are compatible and flow is associated
-  EXPECT_NEAR(drawn_on, 4.896, 0.06 * 4.896);
+  EXPECT_GT(drawn_on, 4.896);  // flow is associated, so the force is that of a mechanism: an upper bound
+  EXPECT_NEAR(drawn_on, 4.896, 0.01 * 4.896);
 }
 
 }  // namespace
