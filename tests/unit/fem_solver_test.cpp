@@ -12,6 +12,7 @@
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/solver.hpp"
 #include "fem/solver/substeps.hpp"
+#include "fem/water/pore_water.hpp"
 
 using namespace polargrain;
 using namespace polargrain::fem;
@@ -441,6 +442,26 @@ TEST(solver, passes_a_jump_where_it_may_and_ends_the_step_in_balance) {
     EXPECT_EQ(after.jumps, 0);
     EXPECT_EQ(after.cuts, 0);
   }
+}
+
+TEST(solver, leaves_water_time_to_flow_behind_a_jump) {
+  Problem<2> problem = biaxial_of_solver(
+      std::make_shared<LocalMaterial<RearrangingLaw>>(RearrangingLaw{elastic_stiffness(sand())}), 0.0);
+  PoreWaterOptions water;
+  water.unit_weight = 1e4;
+  add_pore_water<2>(problem, {{"all", {Permeability::constant(1e-2), 0.7, 2.2e9}}}, water);
+  problem.prescribed_fields = {{kPorePressure, "right", kZeroOfSolver}};
+  SolverOptions options;
+  options.most_cuts = 4;
+  options.most_jumps = 10;
+  Solver<2> solver(std::move(problem), options);
+  ASSERT_TRUE(solver.equilibrate().converged);
+  const StepReport report = solver.advance(1.0);
+  EXPECT_TRUE(report.converged) << report.message;
+  EXPECT_GE(report.jumps, 1);
+  // Jumps take no time, so their water is shut in: some 1e5 Pa. Milliseconds drain the specimen, as the step loads it.
+  for (const int node : solver.problem().fields[0].nodes)
+    EXPECT_LT(std::abs(solver.state().displacement(solver.problem().places().entry(0, node))), 100.0);
 }
 
 TEST(solver, says_no_jump_where_a_step_fails_for_its_length) {
