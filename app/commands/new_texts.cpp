@@ -326,6 +326,7 @@ std::string quay_on_grains_text(const NewCase& what, std::string of_law) {
                       "    {{model: cell, packing: packing.h5, script: cell.in}}\n",
                       what.grains));
   replace("near: sand", "near: grains");
+  replace("tolerance: 1e-4\n", "tolerance: 1e-3\n  line_search: 3                        # boxes jump\n");
   replace("  # behind the wall: a material of its own when you like", "  # behind the wall");
   return of_law;
 }

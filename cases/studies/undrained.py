@@ -12,6 +12,8 @@ import argparse
 import csv
 import math
 import pathlib
+import signal
+import sys
 
 from intervals import table
 from runs import Failed, Programs
@@ -101,6 +103,8 @@ def main():
     place, program = options.output.resolve(), options.program.resolve()
     place.mkdir(parents=True, exist_ok=True)
     programs = Programs()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, programs.stop)
     for kind, what in KINDS.items():
         tests, specimens = {}, {}
         for way, (friction, rolling) in what["ways"].items():
@@ -126,6 +130,8 @@ def main():
                 try:
                     run(f"{name}.mesh/summary.json", "run", f"{name}.case.yaml", "-o", f"{name}.mesh")
                 except Failed as error:
+                    if programs.stopped:
+                        sys.exit("undrained.py: stopped; the same command goes on")
                     print(f"{name}: the specimen ended early\n{error}")
                 specimens.setdefault(way, []).append(
                     {"largest difference, %": difference(place / f"{name}.csv", place / f"{name}.mesh/history.csv")})
