@@ -6,7 +6,7 @@
 
 Discs in biaxial compression, spheres in triaxial compression, 100 kPa, to 10 % of strain; grains resist rolling. A box at constant
 volume is dry. A saturated specimen of the same boxes, one element, is closed and loaded by its total stresses; it is compared to 1 %
-of strain, or until 20 kPa are left. What is there already is not run again. Tables are Markdown, with 95 % intervals.
+of strain, or until 20 kPa are left. Loose spheres have none: they flow before 0.3 %. What is there already is not run again. Tables are Markdown, with 95 % intervals.
 """
 import argparse
 import csv
@@ -123,7 +123,7 @@ def main():
                 run(f"{name}.csv", "element", "--test", what["test"], "--pressure", "100kPa", f"{name}.h5", what["script"], "-o", name,
                     "--set", "drainage=undrained", "--set", "axial_strain=10%")
                 tests.setdefault(way, []).append(figures(place / f"{name}.csv"))
-                if seed > options.specimens:
+                if seed > options.specimens or (kind, way) == ("spheres", "loose"):
                     continue
                 (place / f"{name}.case.yaml").write_text(SPECIMEN.format(name=name, script=what["script"], **MESHES[kind]),
                                                          encoding="utf-8")
