@@ -378,11 +378,16 @@ class CaseReader {
 
   /// The faults that the finite elements find in the whole.
   void check_whole() {
-    const bool contributes =
-        case_.with_problem([](const auto& problem) { return !problem.contributions.empty(); });
-    if (contributes && case_.is_explicit())
-      faults_.push_back(document_.find("steps")->fault(
-          "steps: explicit steps take no interfaces, beams, anchors or water yet; leave out 'method'"));
+    const std::string refused = case_.with_problem([](const auto& problem) {
+      for (const auto& contribution : problem.contributions)
+        if (!contribution->takes_explicit_steps()) return contribution->name();
+      return std::string();
+    });
+    if (!refused.empty() && case_.is_explicit())
+      faults_.push_back(document_.find("steps")->fault(fmt::format(
+          "steps: explicit steps take no interfaces, beams, anchors or free water yet, here {}; leave out "
+          "'method'",
+          refused)));
     for (const std::string& message :
          case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       if (const Entry* const stage = stage_in(document_, message); stage != nullptr) {

@@ -170,6 +170,12 @@ class Newton {
   /// of the committed state gives the forces that hold the free entries while the given ones are at their largest. The largest
   /// moments of the loads and the forces held back are added. Moments count over the reference length.
   [[nodiscard]] double force_of_path() const;
+  /// Fields follow explicit steps implicitly: gives their free entries of the iterate the values with which their rows vanish
+  /// while all displacements stay. The rows must be linear in them. @returns why it cannot; empty: done
+  [[nodiscard]] std::string carry_fields(Iterate& iterate);
+  /// By element: the stiffness that fields add to displacements when nothing flows, condensed; empty without fields.
+  /// @throws RunError where a field stores nothing
+  [[nodiscard]] std::vector<Eigen::MatrixXd> stiffness_of_fields();
   /// Puts elements, supports, loads and the pattern of the tangent where the stage of the state has them.
   void enter_stage();
   /// Notes how the mesh has moved where elements come that were not there before (SolverState::placed_with).

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A step that goes where it is told: the explicit steps of Solver.
+#include <Eigen/Cholesky>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/error.hpp"
 #include "fem/mesh/box_around.hpp"
@@ -20,6 +24,105 @@ double Newton<dim>::force_of_path() const {
   return sum;
 }
 
+namespace {
+
+/// Places of an element's entries in its own matrices.
+struct PartsOfElement {
+  std::vector<Eigen::Index> mechanics;
+  std::vector<Eigen::Index> fields;
+};
+
+PartsOfElement parts_of(const std::vector<int>& entries, Eigen::Index mechanics) {
+  PartsOfElement parts;
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    (entries[k] < mechanics ? parts.mechanics : parts.fields).push_back(static_cast<Eigen::Index>(k));
+  return parts;
+}
+
+}  // namespace
+
+template <int dim>
+std::string Newton<dim>::carry_fields(Iterate& iterate) {
+  const int mechanical = constraints.mechanical_unknowns();
+  const int unknowns = constraints.unknowns() - mechanical;
+  if (unknowns == 0) return {};
+  if (std::string why = contribute(iterate.time, iterate.displacement); !why.empty()) return why;
+  const Eigen::VectorXd rows = constraints.restrict_to_free(contributed_.internal).tail(unknowns);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& contribution : problem.contributions) {
+    for (std::size_t e = 0; e < contribution->elements(); ++e) {
+      const std::vector<int>& own = contribution->entries(e);
+      const PartsOfElement parts = parts_of(own, constraints.places().mechanics());
+      if (parts.fields.empty() || !contribution->is_active(e)) continue;
+      const Eigen::MatrixXd tangent = contribution->tangent(e);
+      const auto unknown = [&](Eigen::Index k) {
+        return constraints.equation(static_cast<std::size_t>(own[static_cast<std::size_t>(k)])) - mechanical;
+      };
+      for (const Eigen::Index i : parts.fields)
+        for (const Eigen::Index j : parts.fields)
+          if (unknown(i) >= 0 && unknown(j) >= 0)
+            entries.emplace_back(unknown(i), unknown(j), -tangent(i, j));
+    }
+  }
+  Eigen::SparseMatrix<double> storage(unknowns, unknowns);
+  storage.setFromTriplets(entries.begin(), entries.end());
+  // Steps are short, so storage rules over flow and few iterations reach rounding.
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(storage);
+  solver.setTolerance(1e-13);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(constraints.unknowns());
+  change.tail(unknowns) = solver.solve(rows);
+  if (solver.info() != Eigen::Success || !change.allFinite())
+    return "the fields beside the displacements cannot be carried on: they store nothing somewhere";
+  constraints.add_free(change, iterate.displacement);
+  return {};
+}
+
+template <int dim>
+std::vector<Eigen::MatrixXd> Newton<dim>::stiffness_of_fields() {
+  if (problem.fields.empty()) return {};
+  std::map<std::vector<int>, std::size_t> element_with;  // sorted entries of its displacements
+  const auto displacements = [](std::vector<int> entries) {
+    std::erase_if(entries, [](int entry) { return is_rotation(dof_at<dim>(entry)); });
+    std::ranges::sort(entries);
+    return entries;
+  };
+  for (std::size_t e = 0; e < discretisation.elements(); ++e)
+    element_with[displacements(discretisation.element_dofs(e))] = e;
+  contributions.learn(discretisation, state.responses);
+  if (std::string why = contribute(state.time, Eigen::VectorXd::Zero(state.displacement.size()));
+      !why.empty())
+    throw RunError(why);
+  std::vector<Eigen::MatrixXd> all(discretisation.elements());
+  for (const auto& contribution : problem.contributions) {
+    for (std::size_t k = 0; k < contribution->elements(); ++k) {
+      const std::vector<int>& own = contribution->entries(k);
+      const PartsOfElement parts = parts_of(own, constraints.places().mechanics());
+      if (parts.fields.empty() || !contribution->is_active(k)) continue;
+      std::vector<int> moved;
+      for (const Eigen::Index i : parts.mechanics) moved.push_back(own[static_cast<std::size_t>(i)]);
+      const auto found = element_with.find(displacements(moved));
+      if (found == element_with.end()) continue;
+      const Eigen::MatrixXd tangent = contribution->tangent(k);
+      const Eigen::LLT<Eigen::MatrixXd> storage(-tangent(parts.fields, parts.fields));
+      if (storage.info() != Eigen::Success)
+        throw RunError(contribution->name() +
+                       " stores nothing: explicit steps need water that yields, give its 'bulk_modulus'");
+      const Eigen::MatrixXd condensed =
+          tangent(parts.mechanics, parts.mechanics) +
+          tangent(parts.mechanics, parts.fields) * storage.solve(tangent(parts.fields, parts.mechanics));
+      const std::vector<int>& dofs = discretisation.element_dofs(found->second);
+      std::vector<Eigen::Index> places;
+      for (const int entry : moved) places.push_back(std::ranges::find(dofs, entry) - dofs.begin());
+      Eigen::MatrixXd& sum = all[found->second];
+      if (sum.size() == 0)
+        sum.setZero(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+      sum(places, places) += condensed;
+    }
+  }
+  contributions.revert();
+  return all;
+}
+
 template <int dim>
 Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report) {
   move_to_committed();
@@ -32,6 +135,7 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
         false,
         "a point would be strained by more than `largest_strain` in one explicit step: the nodes move too fast"};
   if (!contributions.is_empty()) contributions.learn(discretisation, state.responses);
+  if (const std::string why = carry_fields(iterate); !why.empty()) return {false, why, 0.5};
   const double of_path = state.reference_force == 0.0 ? force_of_path() : 0.0;  // the mesh has not moved yet
   evaluate(iterate, report);
   ++report.iterations;
@@ -99,7 +203,7 @@ double Newton<dim>::stable_share() {
 template <int dim>
 Eigen::VectorXd Newton<dim>::stable_masses(double safety) {
   move_to_committed();
-  return nodal_masses(discretisation, linearised(state.responses), safety);
+  return nodal_masses(discretisation, linearised(state.responses), safety, stiffness_of_fields());
 }
 
 template <int dim>
@@ -118,7 +222,7 @@ std::vector<double> Newton<dim>::densities() const {
 template <int dim>
 TrueMasses Newton<dim>::real_masses(const std::vector<Response<dim>>& answers, double safety) {
   move_to_committed();
-  return true_masses(discretisation, linearised(answers), densities(), safety);
+  return true_masses(discretisation, linearised(answers), densities(), safety, stiffness_of_fields());
 }
 
 template std::vector<double> Newton<2>::densities() const;

@@ -32,6 +32,15 @@ double largest_eigenvalue(const Eigen::MatrixXd& symmetric) {
   return symmetric_eigenvalues(symmetric).maxCoeff();
 }
 
+/// The symmetric part of an element's tangent, with what comes beside the stresses.
+template <int dim>
+Eigen::MatrixXd stiffness_of(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
+                             std::size_t e, const std::vector<Eigen::MatrixXd>& also) {
+  Eigen::MatrixXd tangent = discretisation.element_tangent(e, of);
+  if (!also.empty() && also[e].size() > 0) tangent += also[e];
+  return 0.5 * (tangent + tangent.transpose());
+}
+
 /// M^(-1/2) K M^(-1/2).
 Eigen::MatrixXd scaled(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& masses) {
   const Eigen::VectorXd root = masses.cwiseSqrt().cwiseInverse();
@@ -42,13 +51,12 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& 
 
 template <int dim>
 Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
-                             double safety) {
+                             double safety, const std::vector<Eigen::MatrixXd>& also) {
   // Central differences are stable up to an eigenvalue of 4 with steps of 1.
   const double allowed = 4.0 * safety * safety;
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(discretisation.nodal_size());
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
-    const Eigen::MatrixXd tangent = discretisation.element_tangent(e, of);
-    const Eigen::MatrixXd stiffness = 0.5 * (tangent + tangent.transpose());
+    const Eigen::MatrixXd stiffness = stiffness_of(discretisation, of, e, also);
     const Eigen::VectorXd shares = shares_of_nodes(discretisation, e);
     Eigen::VectorXd own = Eigen::VectorXd::Ones(stiffness.rows());
     for (const bool rotary : {false, true}) {
@@ -85,13 +93,13 @@ struct OfElement {
 };
 
 template <int dim>
-OfElement of_element(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, std::size_t e) {
+OfElement of_element(const Discretisation<dim>& discretisation, const Linearisation<dim>& of, std::size_t e,
+                     const std::vector<Eigen::MatrixXd>& also = {}) {
   OfElement element;
-  const Eigen::MatrixXd tangent = discretisation.element_tangent(e, of);
-  element.stiffness = 0.5 * (tangent + tangent.transpose());
+  element.stiffness = stiffness_of(discretisation, of, e, also);
   const Eigen::VectorXd shares = shares_of_nodes(discretisation, e);
-  element.weights = Eigen::VectorXd::Zero(tangent.rows());
-  for (Eigen::Index entry = 0; entry < tangent.rows(); ++entry) {
+  element.weights = Eigen::VectorXd::Zero(element.stiffness.rows());
+  for (Eigen::Index entry = 0; entry < element.stiffness.rows(); ++entry) {
     (is_rotation(dof_at<dim>(entry)) ? element.rotations : element.displacements).push_back(entry);
     element.weights(entry) = shares(entry / Cosserat<dim>::dofs);
   }
@@ -121,13 +129,14 @@ std::vector<double> swings_of_shapes(const Discretisation<dim>& discretisation) 
 
 template <int dim>
 TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
-                       const std::vector<double>& densities, double safety) {
+                       const std::vector<double>& densities, double safety,
+                       const std::vector<Eigen::MatrixXd>& also) {
   // Rotations this much slower than the step allows: coupled with displacements they hardly shorten it.
   constexpr double kSlowRotations = 4.0;
   TrueMasses all{Eigen::VectorXd::Zero(discretisation.nodal_size()), 0.0};
   double fastest = 0.0;  // eigenvalue, 1/s^2
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
-    const OfElement element = of_element(discretisation, of, e);
+    const OfElement element = of_element(discretisation, of, e, also);
     const double largest = largest_of(element, element.displacements, densities[e] * element.weights);
     if (!(largest > 0.0))
       throw RunError(fmt::format("element {} has no stiffness that a time step could follow from", e));
@@ -135,7 +144,7 @@ TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearis
   }
   double together = 0.0;
   for (std::size_t e = 0; e < discretisation.elements(); ++e) {
-    const OfElement element = of_element(discretisation, of, e);
+    const OfElement element = of_element(discretisation, of, e, also);
     Eigen::VectorXd masses = densities[e] * element.weights;
     const double rotary = largest_of(element, element.rotations, element.weights);
     for (const Eigen::Index entry : element.rotations)
@@ -151,12 +160,12 @@ TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearis
 template std::vector<double> swings_of_shapes<2>(const Discretisation<2>&);
 template std::vector<double> swings_of_shapes<3>(const Discretisation<3>&);
 template TrueMasses true_masses<2>(const Discretisation<2>&, const Linearisation<2>&,
-                                   const std::vector<double>&, double);
+                                   const std::vector<double>&, double, const std::vector<Eigen::MatrixXd>&);
 template TrueMasses true_masses<3>(const Discretisation<3>&, const Linearisation<3>&,
-                                   const std::vector<double>&, double);
+                                   const std::vector<double>&, double, const std::vector<Eigen::MatrixXd>&);
 template Eigen::VectorXd nodal_masses<2>(const Discretisation<2>& discretisation, const Linearisation<2>& of,
-                                         double safety);
+                                         double safety, const std::vector<Eigen::MatrixXd>&);
 template Eigen::VectorXd nodal_masses<3>(const Discretisation<3>& discretisation, const Linearisation<3>& of,
-                                         double safety);
+                                         double safety, const std::vector<Eigen::MatrixXd>&);
 
 }  // namespace polargrain::fem

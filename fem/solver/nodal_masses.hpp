@@ -11,13 +11,13 @@ namespace polargrain::fem {
 /// largest eigenfrequency is stable in steps of one unit of time. The largest of the elements bounds that of the mesh
 /// (Irons and Treharne 1971), so one step is safe everywhere, and no element is slower than it must be.
 /// @param of the tangents, of which the symmetric parts count
-/// @param safety step over the critical one, 0 to 1
+/// @param safety step over the critical one, 0 to 1 @param also stiffness beside that of the stresses, by element; empty: none
 /// @return nodal vector, N/m per unit of (length over step squared), and the like for rotations; lumped by the diagonal of the
 /// consistent matrix, scaled to the mass of the element (Hinton, Rock and Zienkiewicz 1976)
 /// @throws RunError when an element has no stiffness at all
 template <int dim>
 Eigen::VectorXd nodal_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
-                             double safety);
+                             double safety, const std::vector<Eigen::MatrixXd>& also = {});
 
 /// True masses, and the time step that is stable with them.
 struct TrueMasses {
@@ -36,6 +36,7 @@ std::vector<double> swings_of_shapes(const Discretisation<dim>& discretisation);
 /// @throws RunError when an element has no stiffness at all
 template <int dim>
 TrueMasses true_masses(const Discretisation<dim>& discretisation, const Linearisation<dim>& of,
-                       const std::vector<double>& densities, double safety);
+                       const std::vector<double>& densities, double safety,
+                       const std::vector<Eigen::MatrixXd>& also = {});
 
 }  // namespace polargrain::fem

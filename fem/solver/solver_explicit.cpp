@@ -17,6 +17,14 @@ namespace {
 
 constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than any ramp has
 
+/// In the order of the equations. Fields have no mass: theirs is one, and their velocity zero.
+template <int dim>
+Eigen::VectorXd masses_of_unknowns(const Constraints<dim>& constraints, const Eigen::VectorXd& nodal) {
+  Eigen::VectorXd masses = constraints.restrict_to_free(nodal);
+  masses.tail(constraints.unknowns() - constraints.mechanical_unknowns()).setOnes();
+  return masses;
+}
+
 /// A row of explicit steps under way.
 template <int dim>
 class ExplicitRow {
@@ -71,6 +79,7 @@ class ExplicitRow {
   /// Lets the nodes come to rest where they are, boundaries held. @returns as step_to
   [[nodiscard]] bool come_to_rest(double time, Residual& residual) {
     // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
+    const int mechanical = solver_.constraints.mechanical_unknowns();
     double before = 0.0;
     residual = solver_.relative(solver_.last_unbalanced());
     while (residual.force > options_.rest && report_.rest_steps < options_.most_rest_steps) {
@@ -81,7 +90,8 @@ class ExplicitRow {
       // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
       // drive the fastest waves.
       if (energy < before)
-        solver_.state.velocity = -0.5 * seconds_ * forces_.cwiseQuotient(solver_.state.mass);
+        solver_.state.velocity.head(mechanical) =
+            -0.5 * seconds_ * forces_.head(mechanical).cwiseQuotient(solver_.state.mass.head(mechanical));
       before = energy < before ? 0.0 : energy;
     }
     solver_.state.velocity.setZero();
@@ -134,6 +144,7 @@ class ExplicitRow {
     step.velocity = ((1.0 - 0.5 * damping.array()) * velocity.array() +
                      seconds_ * forces_.array() / mass.array() + pull.array()) /
                     (1.0 + 0.5 * damping.array());
+    step.velocity.tail(solver_.constraints.unknowns() - solver_.constraints.mechanical_unknowns()).setZero();
     if (quiet_ != nullptr) {
       const auto energy = quiet_->apply(solver_.constraints, velocity,
                                         mass + 0.5 * damping.cwiseProduct(mass), seconds_, step.velocity);
@@ -192,7 +203,7 @@ StepReport Solver<dim>::begin_automatic(int most_iterations, const ExplicitOptio
   const std::optional<Residual> residual = self.start(report, true);
   if (!residual) return report;
   // Of the tangents at rest: tangents of later states may be far softer than the next one.
-  self.state.mass = self.constraints.restrict_to_free(self.stable_masses(options.safety));
+  self.state.mass = masses_of_unknowns(self.constraints, self.stable_masses(options.safety));
   report.converged = self.is_balanced(*residual);
   if (!report.converged) report = self.let_go(std::move(report), most_iterations);
   if (report.converged) return report;
@@ -209,7 +220,8 @@ bool Solver<dim>::Implementation::start_from_balance(const ExplicitOptions& opti
     return false;
   }
   withhold_imbalance();
-  if (state.mass.size() == 0) state.mass = constraints.restrict_to_free(this->stable_masses(options.safety));
+  if (state.mass.size() == 0)
+    state.mass = masses_of_unknowns(constraints, this->stable_masses(options.safety));
   state.velocity = Eigen::VectorXd::Zero(constraints.unknowns());
   state.next_step = 0.0;
   steps_since_rest = 0;
@@ -335,7 +347,7 @@ StepReport Solver<dim>::begin_real_time(const ExplicitOptions& options) {
     if (!self.constraints.is_free(entry))
       state.held(static_cast<Eigen::Index>(entry)) = supplied(static_cast<Eigen::Index>(entry));
   self.release_quiet_boundary();
-  state.mass = self.constraints.restrict_to_free(true_masses.masses);
+  state.mass = masses_of_unknowns(self.constraints, true_masses.masses);
   state.given_mass = Eigen::VectorXd::Zero(state.displacement.size());
   for (Eigen::Index entry = 0; entry < self.constraints.places().mechanics(); ++entry)
     if (!is_rotation(dof_at<dim>(entry)) && !self.constraints.is_free(static_cast<std::size_t>(entry)))

@@ -101,6 +101,8 @@ class PoreWater final : public Contribution<dim> {
   void set_stage(int stage, const std::vector<char>& there) override;
   [[nodiscard]] bool is_active(std::size_t e) const override { return elements_[e].is_there; }
   [[nodiscard]] bool depends_on_duration() const override { return true; }
+  /// Open sides go by the pressure that comes, so their rows are not linear.
+  [[nodiscard]] bool takes_explicit_steps() const override { return options_.open_sides.empty(); }
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
   [[nodiscard]] std::vector<std::string> take_notes() override;
 
