@@ -13,6 +13,7 @@
 #include "coupler/case/parts.hpp"
 #include "coupler/case/read_continuum.hpp"
 #include "coupler/case/workers_keys.hpp"
+#include "fem/water/pore_water.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -388,6 +389,11 @@ class CaseReader {
           "steps: explicit steps take no interfaces, beams, anchors or free water yet, here {}; leave out "
           "'method'",
           refused)));
+    if (boundary_ != nullptr && case_.with_problem([](const auto& problem) {
+          return !problem.quiet.empty() && fem::pore_water_of(problem) != nullptr;
+        }))
+      faults_.push_back(boundary_->fault(
+          "boundary: quiet boundaries know the waves of dry ground alone; leave quiet out, or end 'water' before them"));
     for (const std::string& message :
          case_.with_problem([](const auto& problem) { return fem::faults(problem); })) {
       if (const Entry* const stage = stage_in(document_, message); stage != nullptr) {

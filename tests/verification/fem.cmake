@@ -25,7 +25,8 @@ polargrain_tests(verification polargrain_coupler
 polargrain_tests(verification polargrain_fem
   verification/water_consolidation_test.cpp
   verification/water_plane_test.cpp
-  verification/water_large_test.cpp)
+  verification/water_large_test.cpp
+  verification/water_explicit_test.cpp)
 polargrain_test(water_space_test long verification/water_space_test.cpp LIBS polargrain_fem)
 polargrain_tests(verification polargrain_coupler
   verification/water_case_test.cpp
