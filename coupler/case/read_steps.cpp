@@ -24,10 +24,8 @@ void check_steps_with_water(Section& steps, const std::vector<StepTarget>& plan)
     steps.fault("stages",
                 "stages: water flows in a known time; with 'water' a stage ends at a time ('until'), not at "
                 "a measure or an arc length");
-  for (const char* const key : {"method", "time"})
-    if (const Entry* const other = steps.find(key);
-        other != nullptr && other->text != "newton" && other->text != "loading")
-      steps.fault(key, fmt::format("{0}: {0} '{1}' takes no water yet; leave it out", key, other->text));
+  if (const Entry* const method = steps.find("method"); method != nullptr && method->text == "automatic")
+    steps.fault("method", "method: 'automatic' takes no water yet; write newton or explicit");
 }
 
 }  // namespace

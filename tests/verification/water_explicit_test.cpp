@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pore water in explicit steps: shut in, flowing, in waves.
 #include <cmath>
+#include <tuple>
 
 #include "common/memory_archive.hpp"
 #include "fem/mesh/box.hpp"
@@ -70,7 +71,7 @@ TEST(water_explicit, shut_in_water_takes_its_share) {
 TEST(water_explicit, consolidates_as_in_balanced_steps) {
   const auto make = [] {
     Problem<2> problem =
-        column_of_waves<2>(rectangle({{0.25, 2.0}, {1, 16}}), TimeTable::ramp(kLoadOfWaterExplicit, 2000.0),
+        column_of_waves<2>(rectangle({{0.25, 2.0}, {1, 16}}), TimeTable::ramp(kLoadOfWaterExplicit, 4e4),
                            false, Continuum::cauchy);
     problem.prescribed_fields = {{kPorePressure, "top", kZeroOfWaterExplicit}};
     return std::make_unique<Solver<2>>(std::move(problem), SolverOptions{});
@@ -110,10 +111,12 @@ TEST(water_explicit, waves_know_the_water) {
     ASSERT_TRUE(solver.begin_real_time({}).converged);
     const double speed = std::sqrt((kOedometerModulus + kModulusOfWater) / 2000.0);
     const double at_rest = -kLoadOfWaterExplicit / (kOedometerModulus + kModulusOfWater);
-    for (const auto& [times, share] : {std::pair{1.0, 1.0}, {2.0, 2.0}, {3.0, 1.0}, {4.0, 0.0}}) {
+    // The corners of the motion, where it turns, are rounded by elements of 1/50.
+    for (const auto& [times, share, tolerance] :
+         {std::tuple{1.0, 1.0, 0.015}, {2.0, 2.0, 0.06}, {3.0, 1.0, 0.015}, {4.0, 0.0, 0.06}}) {
       const StepReport report = solver.advance_real_time(times / speed, {});
       ASSERT_TRUE(report.converged) << report.message;
-      EXPECT_NEAR(solver.mean_displacement("top")(1) / at_rest, share, 0.03) << times;
+      EXPECT_NEAR(solver.mean_displacement("top")(1) / at_rest, share, tolerance) << times;
       EXPECT_LT(report.energies.error(), 2e-3) << times;
     }
   }
