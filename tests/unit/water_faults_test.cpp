@@ -140,13 +140,28 @@ TEST(WaterInACase, FaultsOfItsBoundary) {
          "the case has no water");
 }
 
+TEST(WaterInACase, GoesThroughExplicitStepsButForWhatTheyDoNotTake) {
+  const std::pair<std::string, std::string> steps{
+      "steps", "steps: {duration: 1 d, count: 2, method: explicit, explicit_steps: 1000}"};
+  EXPECT_EQ(faults_of({steps}), "");
+  expect({steps, {"boundary", "boundary: [{on: bottom, fix: [u1, u2]}, {on: top, free_water: 2 m}]"}},
+         "explicit steps take no interfaces, beams, anchors or free water yet, here pore water");
+  const std::string density =
+      "materials: {ground: {model: elastic, E: 10 MPa, nu: 0.3, Gc: 2 MPa, lc: 10 mm, density: 2000 kg/m3}}";
+  const std::pair<std::string, std::string> real{
+      "steps", "steps: {duration: 1 s, count: 2, method: explicit, time: real}"};
+  EXPECT_EQ(faults_of({real, {"materials", density}}), "");
+  expect({real,
+          {"materials", density},
+          {"boundary", "boundary: [{on: bottom, fix: [u1, u2], quiet: true}, {on: top, drained: true}]"}},
+         "quiet boundaries know the waves of dry ground alone");
+}
+
 TEST(WaterInACase, FaultsOfWhatItDoesNotTake) {
   expect({{"steps", "steps: {count: 2}"}}, "duration: 10 d");
   expect({{"steps", "steps: {stages: [{name: one, count: 2}]}"}}, "until: 10 d");
   expect({{"steps", "steps: {stages: [{measure: {on: top, displacement: u2}, grow: -1 mm, count: 2}]}"}},
          "water flows in a known time");
-  expect({{"steps", "steps: {duration: 1 d, count: 2, method: explicit, explicit_steps: 1000}"}},
-         "no water yet");
   expect({{"steps", "steps: {duration: 1 d, count: 2, method: automatic}"}}, "no water yet");
   expect({{"steps", "steps: {duration: 1 h, count: 60, first: 2 min}"}}, "go beyond the end");
   expect({{"water", ""},
