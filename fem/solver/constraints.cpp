@@ -155,6 +155,7 @@ Constraints<dim>::Constraints(const Problem<dim>& problem, int stage, const Eige
     }
   }
   if (mechanics == equation_.size()) mechanical_unknowns_ = unknowns_;
+  field_unknowns_ = unknowns_ - mechanical_unknowns_;
 }
 
 template <int dim>

@@ -27,9 +27,10 @@ class Constraints {
 
   /// Where nodal vectors keep the fields of the problem.
   [[nodiscard]] const FieldPlaces<dim>& places() const { return places_; }
-  /// Number of unknowns; the fields come last.
+  /// Number of unknowns: displacements and rotations, then those of fields, then what has been released.
   [[nodiscard]] int unknowns() const { return unknowns_; }
   [[nodiscard]] int mechanical_unknowns() const { return mechanical_unknowns_; }
+  [[nodiscard]] int field_unknowns() const { return field_unknowns_; }
   /// Number of the unknown at an entry of a nodal vector; -1 where the entry is given.
   [[nodiscard]] int equation(std::size_t entry) const { return equation_[entry]; }
   [[nodiscard]] bool is_free(std::size_t entry) const { return equation_[entry] >= 0; }
@@ -76,6 +77,7 @@ class Constraints {
   bool has_ties_;
   int unknowns_ = 0;
   int mechanical_unknowns_ = 0;
+  int field_unknowns_ = 0;
 };
 
 }  // namespace polargrain::fem

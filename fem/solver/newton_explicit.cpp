@@ -44,10 +44,11 @@ PartsOfElement parts_of(const std::vector<int>& entries, Eigen::Index mechanics)
 template <int dim>
 std::string Newton<dim>::carry_fields(Iterate& iterate) {
   const int mechanical = constraints.mechanical_unknowns();
-  const int unknowns = constraints.unknowns() - mechanical;
+  const int unknowns = constraints.field_unknowns();
   if (unknowns == 0) return {};
   if (std::string why = contribute(iterate.time, iterate.displacement); !why.empty()) return why;
-  const Eigen::VectorXd rows = constraints.restrict_to_free(contributed_.internal).tail(unknowns);
+  const Eigen::VectorXd rows =
+      constraints.restrict_to_free(contributed_.internal).segment(mechanical, unknowns);
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& contribution : problem.contributions) {
     for (std::size_t e = 0; e < contribution->elements(); ++e) {
@@ -70,7 +71,7 @@ std::string Newton<dim>::carry_fields(Iterate& iterate) {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(storage);
   solver.setTolerance(1e-13);
   Eigen::VectorXd change = Eigen::VectorXd::Zero(constraints.unknowns());
-  change.tail(unknowns) = solver.solve(rows);
+  change.segment(mechanical, unknowns) = solver.solve(rows);
   if (solver.info() != Eigen::Success || !change.allFinite())
     return "the fields beside the displacements cannot be carried on: they store nothing somewhere";
   constraints.add_free(change, iterate.displacement);

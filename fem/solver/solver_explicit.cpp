@@ -21,7 +21,7 @@ constexpr int kRampIsOver = 1 << 30;  // explicit steps since rest, more than an
 template <int dim>
 Eigen::VectorXd masses_of_unknowns(const Constraints<dim>& constraints, const Eigen::VectorXd& nodal) {
   Eigen::VectorXd masses = constraints.restrict_to_free(nodal);
-  masses.tail(constraints.unknowns() - constraints.mechanical_unknowns()).setOnes();
+  masses.segment(constraints.mechanical_unknowns(), constraints.field_unknowns()).setOnes();
   return masses;
 }
 
@@ -79,7 +79,6 @@ class ExplicitRow {
   /// Lets the nodes come to rest where they are, boundaries held. @returns as step_to
   [[nodiscard]] bool come_to_rest(double time, Residual& residual) {
     // Kinetic damping (Cundall 1976): the nodes stop whenever they are fastest, which is where they pass their balance.
-    const int mechanical = solver_.constraints.mechanical_unknowns();
     double before = 0.0;
     residual = solver_.relative(solver_.last_unbalanced());
     while (residual.force > options_.rest && report_.rest_steps < options_.most_rest_steps) {
@@ -90,8 +89,8 @@ class ExplicitRow {
       // Half a step back, so that the next velocity is that of half a step from where they stop: whole ones would
       // drive the fastest waves.
       if (energy < before)
-        solver_.state.velocity.head(mechanical) =
-            -0.5 * seconds_ * forces_.head(mechanical).cwiseQuotient(solver_.state.mass.head(mechanical));
+        solver_.state.velocity = -0.5 * seconds_ * forces_.cwiseQuotient(solver_.state.mass);
+      stop_fields(solver_.state.velocity);
       before = energy < before ? 0.0 : energy;
     }
     solver_.state.velocity.setZero();
@@ -144,7 +143,7 @@ class ExplicitRow {
     step.velocity = ((1.0 - 0.5 * damping.array()) * velocity.array() +
                      seconds_ * forces_.array() / mass.array() + pull.array()) /
                     (1.0 + 0.5 * damping.array());
-    step.velocity.tail(solver_.constraints.unknowns() - solver_.constraints.mechanical_unknowns()).setZero();
+    stop_fields(step.velocity);
     if (quiet_ != nullptr) {
       const auto energy = quiet_->apply(solver_.constraints, velocity,
                                         mass + 0.5 * damping.cwiseProduct(mass), seconds_, step.velocity);
@@ -159,6 +158,11 @@ class ExplicitRow {
     step.damped = 0.5 * force.dot(velocity + step.velocity) + step.supplied;
     step.damped_first_half = 0.5 * force.dot(velocity) + step.supplied_first_half;
     return step;
+  }
+
+  void stop_fields(Eigen::VectorXd& velocity) const {
+    const Constraints<dim>& constraints = solver_.constraints;
+    velocity.segment(constraints.mechanical_unknowns(), constraints.field_unknowns()).setZero();
   }
 
   /// Spin of the continuum at the micro-rotations, over the time of a step: moments on them that hinder lag alone leave a body

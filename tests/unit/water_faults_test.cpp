@@ -145,7 +145,7 @@ TEST(WaterInACase, GoesThroughExplicitStepsButForWhatTheyDoNotTake) {
       "steps", "steps: {duration: 1 d, count: 2, method: explicit, explicit_steps: 1000}"};
   EXPECT_EQ(faults_of({steps}), "");
   expect({steps, {"boundary", "boundary: [{on: bottom, fix: [u1, u2]}, {on: top, free_water: 2 m}]"}},
-         "explicit steps take no interfaces, beams, anchors or free water yet, here pore water");
+         "explicit steps take no interfaces, beams, anchors or free water yet, here");
   const std::string density =
       "materials: {ground: {model: elastic, E: 10 MPa, nu: 0.3, Gc: 2 MPa, lc: 10 mm, density: 2000 kg/m3}}";
   const std::pair<std::string, std::string> real{
