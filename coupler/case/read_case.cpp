@@ -126,6 +126,13 @@ class CaseReader {
                            fmt::format("material '{}': real time needs its density, such as "
                                        "'density: 1900 kg/m3'",
                                        material)});
+      const bool is_wet = parts_.water && parts_.water->regions.contains(region);
+      if (is_wet && density > 0.0 && recipe->second->given_density == 0.0)
+        faults_.push_back(
+            {material_lines_[material]->value.file, material_lines_[material]->line,
+             fmt::format("material '{}': its packing has {:.0f} kg/m3 without water, and region '{}' is "
+                         "full of it; give the saturated 'density', such as 'density: 2000 kg/m3'",
+                         material, density, region)});
       case_.with_problem([&](auto& problem) { problem.densities[region] = density; });
     }
   }
