@@ -215,6 +215,9 @@ TEST_F(DynamicsRun, MistakesAreFaults) {
   const std::string dense = law + ", density: 2 t/m3";
   expect_in(errors_of(law, held, real), "real time needs its density");
   expect_in(errors_of(law + ", density: 2 kN/m3", held, real), "a density in kg/m3");
+  expect_in(errors_of("model: cell, script: cells/hooke_radii.in, packing: packing100.h5",
+                      held + "water: {undrained: true}\n", real),
+            "give the saturated 'density'");
   expect_in(errors_of(dense, held, real + ", pace: 1e-4"), "leave it out");
   expect_in(errors_of(dense, held, "method: automatic, time: real, count: 2"), "method: explicit");
   expect_in(errors_of(dense, held, "method: newton, time: real, count: 2"), "time");
