@@ -62,6 +62,11 @@ RegionKeys read_region(Section& section, const RegionKeys& otherwise, double uni
   water.void_ratio = section.quantity_or("void_ratio", Dimension::number, Limit::positive, water.void_ratio);
   water.bulk_modulus =
       section.quantity_or("bulk_modulus", Dimension::pressure, Limit::positive, water.bulk_modulus);
+  constexpr double kOfAir = 100e3;  // Pa
+  if (water.bulk_modulus < kOfAir)
+    section.fault("bulk_modulus",
+                  fmt::format("bulk_modulus: {:.4g} Pa; air has 100 kPa, water 2.2 GPa: write the unit",
+                              water.bulk_modulus));
   water.undrained = is_yes(section.choice_or("undrained", kYesOrNo, water.undrained ? "yes" : "no"));
   if (section.find("permeability") != nullptr)
     water.permeability = read_permeability(section, unit_weight, faults);

@@ -158,6 +158,8 @@ TEST(WaterInACase, GoesThroughExplicitStepsButForWhatTheyDoNotTake) {
 }
 
 TEST(WaterInACase, FaultsOfWhatItDoesNotTake) {
+  expect({{"water", "water: {permeability: 1e-5 m/s, level: 2 m, bulk_modulus: 2.2}"}},
+         "bulk_modulus: 2.2 Pa; air has 100 kPa, water 2.2 GPa: write the unit");
   expect({{"steps", "steps: {count: 2}"}}, "duration: 10 d");
   expect({{"steps", "steps: {stages: [{name: one, count: 2}]}"}}, "until: 10 d");
   expect({{"steps", "steps: {stages: [{measure: {on: top, displacement: u2}, grow: -1 mm, count: 2}]}"}},
