@@ -6,7 +6,8 @@
 
 Discs in biaxial compression, spheres in triaxial compression, 100 kPa, to 10 % of strain; grains resist rolling. A box at constant
 volume is dry. A saturated specimen of the same boxes of discs, one element, is closed and loaded by its total stresses; it is compared
-to 1 % of strain, or until 20 kPa are left. Specimens of spheres are not balanced to 1e-4, and loose ones flow before 0.3 %. What is there already is not run again. Tables are Markdown, with 95 % intervals.
+to 1 % of strain, or until 20 kPa are left. Specimens of spheres are not balanced to 1e-4, and loose ones flow before 0.3 %. What is
+there already is not run again. Tables are Markdown, with 95 % intervals.
 """
 import argparse
 import csv

@@ -11,7 +11,8 @@ namespace polargrain::fem {
 /// largest eigenfrequency is stable in steps of one unit of time. The largest of the elements bounds that of the mesh
 /// (Irons and Treharne 1971), so one step is safe everywhere, and no element is slower than it must be.
 /// @param of the tangents, of which the symmetric parts count
-/// @param safety step over the critical one, 0 to 1 @param also by element: a stiffness that is added to that of the stresses; no element has one where it is empty
+/// @param safety step over the critical one, 0 to 1
+/// @param also by element: a stiffness that is added to that of the stresses; no element has one where it is empty
 /// @return nodal vector, N/m per unit of (length over step squared), and the like for rotations; lumped by the diagonal of the
 /// consistent matrix, scaled to the mass of the element (Hinton, Rock and Zienkiewicz 1976)
 /// @throws RunError when an element has no stiffness at all

@@ -151,9 +151,8 @@ StepReport Solver<dim>::Implementation::march(StepReport report, GoalAt goal_at,
       constexpr double kLeastTimeBehind = 0.05;
       const bool leaves_no_time = way.end() == 1.0 && way.share() > kLeastTimeBehind &&
                                   !this->contributions.depends_on_duration().empty();
-      const Passing passing =
-          leaves_no_time ? Passing{} : pass(goal, jumps.seen() ? HUGE_VAL : options.jump_residual, report);
-      if (leaves_no_time) revert();
+      const double largest = leaves_no_time ? -1.0 : jumps.seen() ? HUGE_VAL : options.jump_residual;
+      const Passing passing = pass(goal, largest, report);
       committed = passing.passed;
       if (passing.stuck)
         return given_up("a jump of the stresses was passed and cannot be balanced: " + passing.reason);

@@ -101,7 +101,7 @@ struct Solver<dim>::Implementation : Newton<dim> {
   };
   /// Passes the jump that the last attempt has met, when it may and the jump is not larger than `largest`, and lets go
   /// of the forces out of balance at the place reached; further jumps on the way too.
-  /// @param goal the aim of the step
+  /// @param goal the aim of the step @param largest force residual that a jump may leave; negative: it may not be passed
   Passing pass(StepGoal goal, double largest, StepReport& report);
 };
 
