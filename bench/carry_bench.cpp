@@ -22,7 +22,7 @@
 #include "common/packing_file.hpp"
 #include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/adaptivity/grain_measure.hpp"
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/linearised.hpp"
 #include "tests/support/cell_fixture.hpp"
 
 namespace polargrain {

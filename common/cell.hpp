@@ -18,8 +18,9 @@ namespace polargrain {
 /// Which tangent a cell returns with its stress: affine motion of the grains (cheap, far too stiff once
 /// contacts slide), or the contact network condensed onto its own equilibrium (one sparse factorisation).
 /// `cosserat`: the condensed one with the mean rotation of the grains prescribed, also where their rotations are
-/// free: the answer of the network to a skew strain and a curvature.
-enum class CellTangent { none, voigt, condensed, cosserat };
+/// free: the answer of the network to a skew strain and a curvature. `secant`: condensed where a tangent is asked for, which the
+/// material does rarely (coupler/cells/secant_tangent.hpp).
+enum class CellTangent { none, voigt, condensed, cosserat, secant };
 
 /// The condition on the rotations of the grains (docs/theory.md, C.6): free, so that the stress is
 /// symmetric (mode 1), or their mean prescribed, so that the cell also answers to the micro-rotation with a skew stress
@@ -32,7 +33,7 @@ enum class CellRotations { free, controlled };
 enum class CellLoop { automatic, engine, plain };
 
 constexpr Choices choices_of(CellTangent) {
-  return {0, 4};
+  return {0, 5};
 }
 constexpr Choices choices_of(CellRotations) {
   return {0, 2};

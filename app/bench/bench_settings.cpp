@@ -138,12 +138,14 @@ class Grid {
   }
 
   void add_tangent() {
-    std::vector<std::string> overrides;
-    for (const auto& material : materials_) {
-      if (material.model == "cell")
-        overrides.push_back(fmt::format("materials.{}.tangent=voigt", material.name));
+    for (const char* const tangent : {"voigt", "secant"}) {
+      std::vector<std::string> overrides;
+      for (const auto& material : materials_) {
+        if (material.model == "cell")
+          overrides.push_back(fmt::format("materials.{}.tangent={}", material.name, tangent));
+      }
+      if (!overrides.empty()) add("tangent", tangent, overrides);
     }
-    if (!overrides.empty()) add("tangent", "voigt", overrides);
   }
 
   void add_step_sizes() {

@@ -59,7 +59,8 @@ void AdaptiveMaterial<dim>::run_followed() {
     const Increment<dim> increment = increment_of_step(followed.point);
     if (followed.reply.state && are_equal(increment, followed.increment)) continue;
     followed.increment = increment;
-    requests.push_back({followed.state, increment});
+    requests.push_back(
+        {followed.state, increment, &cells_.front().answer.response});  // its tangent is not asked for
     points.push_back(followed.point);
     running.push_back(&followed);
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/linearised.hpp"
 #include "fem/material/rotation.hpp"
 
 namespace polargrain::coupler {

@@ -7,8 +7,15 @@
 #include "coupler/cells/cell_fields.hpp"
 #include "coupler/cells/cell_increment.hpp"
 #include "coupler/cells/cell_noise.hpp"
+#include "coupler/cells/secant_tangent.hpp"
 
 namespace polargrain::coupler {
+namespace {
+
+/// Evaluations of a step that secant tangents do with. An iteration that needs more does not converge by them.
+constexpr int kStressAlone = 3;
+
+}  // namespace
 
 template <int dim>
 CellMaterial<dim>::CellMaterial(Pool& pool, std::uint32_t definition,
@@ -17,6 +24,9 @@ CellMaterial<dim>::CellMaterial(Pool& pool, std::uint32_t definition,
   if (!note.empty()) notes_.push_back(note);
   const CellDefinition& cell = pool.definition(definition);
   if (cell.control.rotations == CellRotations::controlled) mean_radius_ = cell.packing.mean_radius();
+  if (cell.control.tangent != CellTangent::secant) return;
+  calls_ = secant_calls_of<dim>(pool, definition);
+  stress_alone_ = kStressAlone;
 }
 
 template <int dim>
@@ -60,11 +70,14 @@ void CellMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
                                  std::span<Response<dim>> responses) {
   std::vector<PointRequest<dim>> requests;
   std::vector<std::size_t> points;
+  const bool asks_for_tangents = evaluations_++ >= stress_alone_;
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     if (is_zero(increments[point])) continue;
-    requests.push_back({committed_[point].cell.state, cosserat_ ? increment_for_free_cell(increments[point])
-                                                                : increment_for_cell(increments[point])});
+    requests.push_back(
+        {committed_[point].cell.state,
+         cosserat_ ? increment_for_free_cell(increments[point]) : increment_for_cell(increments[point]),
+         asks_for_tangents ? nullptr : &committed_[point].cell.response});
     points.push_back(point);
   }
   std::vector<PointReply<dim>> replies = calls_.evaluate(requests, points);
@@ -92,6 +105,7 @@ void CellMaterial<dim>::commit() {
   for (PointState& point : trial_) states.push_back(&point.cell.state);
   collect(calls_, states);
   committed_ = trial_;
+  evaluations_ = 0;
   std::vector<LimitsReached> reached_limits;
   for (const PointState& point : committed_) reached_limits.push_back(reached(point));
   at_limits_.count(reached_limits);

@@ -43,7 +43,11 @@ class CellMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>,
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Collects the states of the cells.
   void commit() override;
-  void revert() override { trial_ = committed_; }
+  /// What the step begins with anew asks for tangents from the first evaluation on.
+  void revert() override {
+    trial_ = committed_;
+    evaluations_ = stress_alone_;
+  }
   void save(ArchiveWriter& archive) const override;
   void restore(ArchiveReader& archive) override;
   /// A box is whole: each point takes that of the nearest one.
@@ -89,6 +93,8 @@ class CellMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>,
   GroundStart<dim> ground_;
   double mean_radius_ = 0.0;  ///< of the grains, m; 0: their rotations are free
   std::vector<std::string> notes_;
+  int stress_alone_ = 0;  ///< evaluations of a step that ask for stress alone (CellTangent::secant)
+  int evaluations_ = 0;   ///< of this step
   std::vector<PointState> committed_;
   std::vector<PointState> trial_;
 };

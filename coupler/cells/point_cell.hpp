@@ -15,6 +15,9 @@ template <int dim>
 struct PointRequest {
   StatePointer state;        ///< null: the packing
   Increment<dim> increment;  ///< about the start of the step (increment_for_cell)
+  /// The answer at `state`, whose tangent may be carried on by the stress to come (secant_tangent.hpp); null: a tangent is asked
+  /// for.
+  const Response<dim>* start = nullptr;
 };
 
 /// The answer of a cell to a point.

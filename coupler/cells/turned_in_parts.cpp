@@ -35,6 +35,7 @@ std::vector<PointReply<dim>> evaluate_in_parts(
       if (part >= parts || (part > 0 && replies[k].response.quality == Quality::failed)) continue;
       PointRequest<dim> request = requests[k];
       if (part > 0) request.state = replies[k].state;
+      if (part > 0 && request.start != nullptr) request.start = &replies[k].response;
       if (parts > 1)
         request.increment = offset_between(share_of(whole, static_cast<double>(part) / parts),
                                            share_of(whole, static_cast<double>(part + 1) / parts));

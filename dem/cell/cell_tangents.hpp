@@ -22,7 +22,9 @@ class CellTangents {
   using Matrix = typename Cosserat<dim>::Matrix;
 
   /// @param grains their number
-  CellTangents(const CellControl& control, int grains) : control_(control), grains_(grains) {}
+  CellTangents(const CellControl& control, int grains) : control_(control), grains_(grains) {
+    if (control_.tangent == CellTangent::secant) control_.tangent = CellTangent::condensed;
+  }
 
   /// Takes down where the grains are at the begin of an increment, with their contacts.
   void start(const GrainBox<dim>& box);

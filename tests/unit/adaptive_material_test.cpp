@@ -10,7 +10,7 @@
 #include <random>
 
 #include "common/memory_archive.hpp"
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/linearised.hpp"
 #include "coupler/cells/turned_in_parts.hpp"
 #include "tests/unit/known_cells.hpp"
 

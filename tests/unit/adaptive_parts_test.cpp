@@ -11,8 +11,8 @@
 #include "coupler/adaptivity/error_estimate.hpp"
 #include "coupler/adaptivity/grain_measure.hpp"
 #include "coupler/adaptivity/leaders.hpp"
-#include "coupler/adaptivity/linearised.hpp"
 #include "coupler/cells/cell_increment.hpp"
+#include "coupler/cells/linearised.hpp"
 #include "coupler/cells/successive.hpp"
 #include "fem/material/rotation.hpp"
 

@@ -10,6 +10,7 @@ polargrain_tests(unit polargrain_coupler
   unit/continuum_case_test.cpp
   unit/document_kind_test.cpp
   unit/cell_increment_test.cpp
+  unit/secant_tangent_test.cpp
   unit/network_moduli_test.cpp)
 polargrain_tests(unit polargrain_app
   unit/calibration_points_test.cpp

@@ -11,7 +11,7 @@
 
 #include "common/memory_archive.hpp"
 #include "coupler/adaptivity/adaptive_material.hpp"
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/linearised.hpp"
 
 namespace polargrain::coupler {
 

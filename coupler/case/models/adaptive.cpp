@@ -8,6 +8,7 @@
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
 #include "coupler/cells/gathered_material.hpp"
+#include "coupler/cells/secant_tangent.hpp"
 
 namespace polargrain::coupler {
 namespace {
@@ -29,8 +30,8 @@ class AdaptiveRecipe : public MaterialRecipe {
     std::string note;
     std::optional<CosseratParameters> cosserat;
     if (cosserat_) cosserat = resolved(*cosserat_, pool, definition_, note);
-    auto material = std::make_shared<AdaptiveMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
-                                                            cosserat, options_, note);
+    auto material = std::make_shared<AdaptiveMaterial<dim>>(
+        secant_calls_of<dim>(pool, pool.define(definition_)), cosserat, options_, note);
     if (ask_every_ == 0) return material;
     return std::make_shared<GatheredMaterial<dim>>(std::move(material), ask_every_);
   }

@@ -39,10 +39,12 @@ void describe_keys(CellControl& control, Visit&& visit) {
       Key{.name = "tangent",
           .meaning =
               "`condensed`: the contact network in its own equilibrium; `voigt`: affine motion, cheaper, far too "
-              "stiff once contacts slide"},
+              "stiff once contacts slide; `secant`: that of the last step, corrected by the stress found, and anew where "
+              "three iterations are not enough ([when](howto/method.md))"},
       control.tangent,
       std::array{Word<CellTangent>{"condensed", CellTangent::condensed},
-                 Word<CellTangent>{"voigt", CellTangent::voigt}});
+                 Word<CellTangent>{"voigt", CellTangent::voigt},
+                 Word<CellTangent>{"secant", CellTangent::secant}});
   visit(Key{.name = "least_steps",
             .meaning = "fewest DEM steps of an increment; more for [low stress](hard_cells.md#low-stress)"},
         control.least_steps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupler/adaptivity/linearised.hpp"
+#include "coupler/cells/linearised.hpp"
 
 #include "coupler/cells/cosserat_part.hpp"
 #include "fem/material/rotation.hpp"
