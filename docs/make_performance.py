@@ -22,7 +22,6 @@ SELF = "docs/make_performance.py build/release/app/polargrain"
 
 DEMO = "cases/biaxial/case.yaml"
 FOOTING = "cases/footing_cells/case.yaml"
-TWO_ELEMENTS = ["mesh.rectangle.elements=[1,2]", "boundary.1.move.u2=-32e-3", "steps.count=40", "steps.iterations=40"]
 EIGHT_ELEMENTS = ["mesh.rectangle.elements=[2,4]"]
 VOIGT = ["materials.sand.tangent=voigt"]
 SMALL_STEPS = ["steps.count=46", "steps.iterations=40"]
@@ -73,19 +72,6 @@ def run(name, case, settings):
     with open(os.path.join(results, "history.csv"), encoding="utf-8") as text:
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
     return rows[1:], summary
-
-
-def newton():
-    table = [["tangent"] + ["to 0.5 %", "1 %", "1.5 %", "2 %", "2.5 %", "3 %", "3.5 %", "4 %"] + ["cuts", "cells run to 3 %"]]
-    for tangent, settings in (("condensed", []), ("voigt", VOIGT)):
-        rows, _ = run(f"newton_{tangent}", DEMO, TWO_ELEMENTS + settings)
-        cells = []
-        for begin in range(0, 40, 5):
-            iterations = [row["iterations"] for row in rows[begin:begin + 5]]
-            cells.append(f"{sum(iterations) / len(iterations):.1f} ({max(iterations):.0f})" if iterations else "stopped")
-        table.append([f"`{tangent}`", *cells, f"{sum(row['cuts'] for row in rows):.0f}",
-                      f"{sum(row['evaluations'] for row in rows[:30]):.0f}"])
-    keep("newton.csv", SELF, "any", table)
 
 
 def acceleration():
@@ -147,8 +133,7 @@ additional time of the condensed tangent. "off" is the deviator against a slow r
      ["packing", "grains", "seconds", "DEM steps"], ["discs, void"]),
     ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 29,244 evaluations) takes one minute of processor time, 94 % of it in the grains.
 
-Newton iterations a step (most in brackets), `cases/biaxial` with 2 elements, 40 steps to 4 %: 2.4 a step to 3 % with the condensed tangent, 11.5 with Voigt's.""", "newton.csv",
-     ["tangent", "to 0.5 %", "1 %", "2 %", "3 %", "4 %", "cells run to 3 %"], []),
+Fewer tangents: `tangent: secant` ([when](howto/method.md#which-tangent)) beside `condensed`, the same packings with one worker; means with 95 % intervals.""", "tangents.csv", [], []),
     ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once. "Own" is processor time of the coordinator. It saturates where that is
 all of an evaluation of 2.9 ms.""", "coupler_scale.csv", ["workers", "other load", "own, us an evaluation", "saturates at"], ["8"]),
     ("Adaptivity", """`model: adaptive` ([explanation](adaptivity.md)) against a cell at every point. Error of the load curve as a share of its largest value; largest relative error
@@ -199,7 +184,6 @@ if __name__ == "__main__":
         PROGRAM = os.path.abspath(sys.argv[1])
         PLACE = os.path.abspath(sys.argv[2] if len(sys.argv) > 2 else "performance")
         os.makedirs(PLACE, exist_ok=True)
-        newton()
         acceleration()
         adaptivity(FOOTING, "soil", "pressure", [30, 5, 3, 1, 0.3])
         adaptivity(DEMO, "sand", "stress_ratio", [4, 2])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Does a secant do in place of a tangent? Iterations and seconds of grains with `tangent: secant`, beside `condensed`.
+"""Does a secant do in place of a tangent? Iterations and processor time with `tangent: secant`, beside `condensed`.
 
 usage: tangents.py [--packings N] [--output DIR] [--programs DIR]
 Each packing of each scene is run with both, one after the other, with one worker. Half an hour of one core.
@@ -10,6 +10,7 @@ import csv
 import json
 import pathlib
 import re
+import resource
 import sys
 
 from intervals import shown
@@ -38,10 +39,15 @@ def runs_of(programs, scene, seed, place):
     summaries = {}
     for tangent in TANGENTS:
         result = case / tangent
-        if not (result / "summary.json").exists():
+        seconds = result / "processor_seconds"
+        if not seconds.exists():
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
             programs.call(log, polargrain, "run", case / "case.yaml", "--set", f"materials.{material}.tangent={tangent}",
                           "-w", "1", "--quiet", "-o", result)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            seconds.write_text(str(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime))
         summaries[tangent] = json.loads((result / "summary.json").read_text())
+        summaries[tangent]["processor"] = float(seconds.read_text())
     return summaries
 
 
@@ -57,7 +63,7 @@ def row(scene, found):
         return one["iterations"] / one["steps_committed"]
 
     return [scene, len(found), *(shown(figures(tangent, iterations), 1) for tangent in TANGENTS),
-            shown(ratios(lambda one: one["cells"]["evaluations"]), 2), shown(ratios(lambda one: one["seconds"]["grains"]), 2)]
+            shown(ratios(lambda one: one["cells"]["evaluations"]), 2), shown(ratios(lambda one: one["processor"]), 2)]
 
 
 def main():
@@ -69,7 +75,7 @@ def main():
     programs = Programs(given.programs)
     place = given.output.resolve()
     place.mkdir(parents=True, exist_ok=True)
-    rows = [["scene", "n", *(f"iterations a step, {tangent}" for tangent in TANGENTS), "evaluations, ratio", "seconds of grains, ratio"]]
+    rows = [["scene", "n", *(f"iterations a step, {tangent}" for tangent in TANGENTS), "evaluations, ratio", "processor time, ratio"]]
     for scene in SCENES:
         found = []
         for seed in range(1, given.packings + 1):

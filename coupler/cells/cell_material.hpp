@@ -43,7 +43,7 @@ class CellMaterial : public fem::Material<dim>, public fem::BeginsInGround<dim>,
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   /// Collects the states of the cells.
   void commit() override;
-  /// What the step begins with anew asks for tangents from the first evaluation on.
+  /// A step that is tried again asks for tangents from its first evaluation on.
   void revert() override {
     trial_ = committed_;
     evaluations_ = stress_alone_;

@@ -4,9 +4,9 @@
 
 namespace polargrain::coupler {
 
-/// The tangent of a cell that was asked for its stress alone: that of the start in the axes of the end, changed in one
-/// direction, such that the increment leads to the stress found (Broyden, Math. Comp. 19 (1965) 577). Along the increment
-/// the stiffness keeps a tenth of that at the start at least: a stress that jumps is no tangent.
+/// A tangent for a cell that was asked for its stress alone. The tangent of the start, in the axes of the end, is changed in
+/// one direction, so that the increment leads to the stress found (Broyden, Math. Comp. 19 (1965) 577). Along the increment
+/// a tenth of the stiffness stays at least: a stress that jumps is no tangent.
 /// @param start of the increment, with its tangent @param end with its stress
 /// @param length strains by curvatures count as much as this times the curvature, m
 template <int dim>

@@ -22,7 +22,7 @@ struct Dimension {
 using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(SecantTangentTest, Dimensions);
 
-constexpr double kLength = 0.01;
+constexpr double kSecantLength = 0.01;
 
 /// Some stress, and a tangent that is positive and not symmetric.
 template <int dim>
@@ -64,14 +64,14 @@ TYPED_TEST(SecantTangentTest, LeadsToTheStressFound) {
     end.stress = along_tangent;
     for (int i = 0; i < end.stress.size(); ++i) end.stress(i) -= 300.0 * (i + 1);
     const auto before = with_tangent_turned(start, increment).tangent;
-    const auto made = secant_tangent(start, end, increment, kLength);
+    const auto made = secant_tangent(start, end, increment, kSecantLength);
     const double scale = along_tangent.norm();
     EXPECT_LT(((made - before) * strain - (end.stress - along_tangent)).norm(), 1e-12 * scale);
     // No other direction is touched: strains at a right angle to it have the stress of before.
     typename Cosserat<dim>::Vector other = Cosserat<dim>::Vector::LinSpaced(-1.0, 2.0);
     other.template tail<Cosserat<dim>::couples>().setZero();
     typename Cosserat<dim>::Vector weighted = strain;
-    weighted.template tail<Cosserat<dim>::couples>() *= kLength * kLength;
+    weighted.template tail<Cosserat<dim>::couples>() *= kSecantLength * kSecantLength;
     other -= other.dot(weighted) / weighted.dot(strain) * strain;
     EXPECT_LT(((made - before) * other).norm(), 1e-12 * scale);
   }
@@ -83,8 +83,8 @@ TYPED_TEST(SecantTangentTest, KeepsTheTangentOfALinearCell) {
   const Increment<dim> increment = some_increment<dim>(Configuration::fixed);
   Response<dim> end;
   end.stress = linearised_stress(start, increment);
-  EXPECT_EQ(secant_tangent(start, end, increment, kLength), start.tangent);
-  EXPECT_EQ(secant_tangent(start, end, Increment<dim>{}, kLength), start.tangent);
+  EXPECT_EQ(secant_tangent(start, end, increment, kSecantLength), start.tangent);
+  EXPECT_EQ(secant_tangent(start, end, Increment<dim>{}, kSecantLength), start.tangent);
 }
 
 TYPED_TEST(SecantTangentTest, TakesNoJumpForStiffness) {
@@ -95,7 +95,7 @@ TYPED_TEST(SecantTangentTest, TakesNoJumpForStiffness) {
   Response<dim> end;
   end.stress = linearised_stress(start, increment) - 3.0 * (start.tangent * strain);
   const double before = strain.dot(start.tangent * strain);
-  EXPECT_NEAR(strain.dot(secant_tangent(start, end, increment, kLength) * strain) / before, 0.1, 1e-12);
+  EXPECT_NEAR(strain.dot(secant_tangent(start, end, increment, kSecantLength) * strain) / before, 0.1, 1e-12);
 }
 
 /// Answers with as many steps as it has been asked requests, so that one sees who answered.
@@ -117,7 +117,7 @@ CellCalls<2> counted(std::int64_t first, std::vector<std::size_t>& asked) {
 TEST(SecantCalls, AskForTangentsWhereThereIsNoStart) {
   std::vector<std::size_t> with;
   std::vector<std::size_t> without;
-  const CellCalls<2> calls = with_secant_tangents(counted(100, with), counted(200, without), kLength);
+  const CellCalls<2> calls = with_secant_tangents(counted(100, with), counted(200, without), kSecantLength);
   const Response<2> start = some_start<2>();
   const Increment<2> increment = some_increment<2>(Configuration::fixed);
   const std::vector<PlaneRequest> requests{

@@ -39,8 +39,8 @@ void describe_keys(CellControl& control, Visit&& visit) {
       Key{.name = "tangent",
           .meaning =
               "`condensed`: the contact network in its own equilibrium; `voigt`: affine motion, cheaper, far too "
-              "stiff once contacts slide; `secant`: that of the last step, corrected by the stress found, and anew where "
-              "three iterations are not enough ([when](howto/method.md))"},
+              "stiff once contacts slide; `secant`: the tangent of the last step, corrected by the stress of the "
+              "grains ([when](howto/method.md))"},
       control.tangent,
       std::array{Word<CellTangent>{"condensed", CellTangent::condensed},
                  Word<CellTangent>{"voigt", CellTangent::voigt},
