@@ -229,14 +229,19 @@ std::string resolved_length(double element) {
   return fmt::format("{:.3g} m", 0.1 * unit * std::ceil(10.0 * length / unit - 1e-6));
 }
 
+/// The keys that a scheme has of its own.
+std::string keys_of(const std::string& scheme) {
+  if (scheme == "adaptive")
+    return "    adaptive: {tolerance: 3 %}      # error in stress of a point, of the pressure of the packing\n";
+  if (scheme == "cell")
+    return "    tangent: secant                 # condensed: boxes find one in each iteration, which takes more time\n";
+  return "";
+}
+
 std::string materials_text(const NewCase& what, const std::string& length) {
-  const std::string keys =
-      what.scheme == "adaptive"
-          ? "    adaptive: {tolerance: 3 %}      # error in stress of a point, of the pressure of the packing\n"
-          : "";
   return filled(kMaterialText, {{"SCHEME", what.scheme},
                                 {"SCHEME_MEANING", meaning_of(what.scheme)},
-                                {"SCHEME_KEYS", keys},
+                                {"SCHEME_KEYS", keys_of(what.scheme)},
                                 {"PRESSURE", pascals(what.pressure)},
                                 {"LENGTH", length}});
 }
