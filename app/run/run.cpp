@@ -6,6 +6,8 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "app/grains/cell_paths.hpp"
@@ -78,10 +80,13 @@ class Run {
   /// @returns whether the last step was committed
   bool go() {
     try {
-      if (first_step_ <= case_.steps()) {
-        start();
-        if (!steps()) return false;
+      if (is_complete()) {
+        log_.info("no step is left: the results stay as they are");
+        record_.status = "done";
+        return true;
       }
+      start();  // also where no step is left: the summary asks the materials
+      if (!steps()) return false;
       record_.status = "done";
     } catch (const Interrupted& error) {
       end_badly("stopped", error.what());
@@ -116,6 +121,14 @@ class Run {
       log_.warn("the checkpoint was written by version {}: the last bits of results may differ",
                 from_->program);
     }
+  }
+
+  /// Whether a run that goes on has taken its last step, and has said all that it has to say.
+  [[nodiscard]] bool is_complete() const {
+    if (first_step_ <= case_.steps()) return false;
+    std::ifstream file(directory_ / "summary.json");
+    const std::string summary((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    return summary.find("\"status\": \"done\"") != std::string::npos;
   }
 
   void start() {
@@ -162,7 +175,7 @@ class Run {
     solver_->restore(state);
     observer_.go_on(solver_->state().time);
     checkpoints_.keep(std::move(from_));
-    if (!record_.steps.empty()) files_.write(record_.steps.back(), *solver_);
+    if (!record_.steps.empty() && first_step_ <= case_.steps()) files_.write(record_.steps.back(), *solver_);
   }
 
   /// Slips of cells are known no better than their stresses are balanced.

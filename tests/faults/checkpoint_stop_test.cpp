@@ -67,11 +67,19 @@ TEST_F(StoppedRun, SaysHowToGoOnAndGoesOnToTheSameBytes) {
 TEST_F(StoppedRun, ThatIsDoneHasNothingToGoOnWith) {
   ASSERT_EQ(polargrain("run case.yaml -o out -w 2 --quiet").status, 0);
   const std::string before = results_of(scratch_.path() / "out");
+  const auto what_materials_say = [this] {
+    const std::string summary = result("out/summary.json");
+    const std::size_t begin = summary.find("\"materials\"");
+    return summary.substr(begin, summary.find("\"proof\"") - begin);
+  };
+  const std::string said = what_materials_say();
+  EXPECT_NE(said.find("\"all\""), std::string::npos) << said;
   const Outcome again = polargrain("run case.yaml -o out -w 2 --resume");
   EXPECT_EQ(again.status, 0) << again.errors;
   EXPECT_NE(again.out.find("going on behind step 10 of 10"), std::string::npos);
   EXPECT_TRUE(results_of(scratch_.path() / "out") == before);
   EXPECT_NE(result("out/summary.json").find("\"status\": \"done\""), std::string::npos);
+  EXPECT_EQ(what_materials_say(), said);
 }
 
 TEST_F(StoppedRun, ResumeWithoutACheckpointIsRefused) {
