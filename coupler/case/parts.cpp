@@ -55,10 +55,12 @@ void CaseParts::check_places(Section& section, const std::string& key, const std
       if (!mesh.has_nodes_on(place)) {
         const std::vector<std::string> known = mesh.boundary_and_node_set_names();
         const std::string guess = nearest(place, known);
-        section.fault(key, fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
-                                       !guess.empty()            ? "did you mean '" + guess + "'?"
-                                       : mesh.boundaries.empty() ? no_groups("Curve", place)
-                                                                 : "it has " + listed(known)));
+        section.fault(key,
+                      fmt::format("{}: the mesh has no boundary or node set '{}'; {}", key, place,
+                                  !guess.empty() ? "did you mean '" + guess + "'?"
+                                  : mesh.boundaries.empty()
+                                      ? no_groups(mesh.nodes.front().size() == 3 ? "Surface" : "Curve", place)
+                                      : "it has " + listed(known)));
       } else if (!edge_load.empty() && !mesh.boundaries.contains(place)) {
         section.fault(key, fmt::format("{}: {} needs a boundary, '{}' is a set of nodes; boundaries are {}",
                                        key, edge_load, place, names_of(mesh.boundaries)));

@@ -207,10 +207,15 @@ class Reader {
       std::ranges::sort(region);
       region.erase(std::ranges::unique(region).begin(), region.end());
     }
-    if (mesh_.regions.empty()) {
-      for (const GmshContent::Block& block : content_.blocks) {
-        if (block.dimension == dim) add_entity(block.entity);
-      }
+    const bool has_names = !mesh_.regions.empty();
+    for (const GmshContent::Block& block : content_.blocks) {
+      if (block.dimension != dim) continue;
+      if (has_names && !block.nodes.empty() && !elements_of_entity.contains(block.entity))
+        fail(fmt::format(
+            "its {} {} has elements and no physical name, while others have one: name it too, or remove it from the "
+            "mesh (without Mesh.SaveAll Gmsh leaves out what has no name)",
+            dim == 2 ? "surface" : "volume", block.entity));
+      add_entity(block.entity);
     }
     if (mesh_.elements.empty())
       fail(fmt::format(

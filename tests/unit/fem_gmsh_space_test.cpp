@@ -171,6 +171,18 @@ TEST(GmshBody, SaysWhatToWriteForElementsThatAreNotRead) {
     if (group.name == "foot") group.name = "left";
   EXPECT_NE(fault_of([&] { return mesh_of<3>("a.msh", content); }).find("give each its own"),
             std::string::npos);
+  // A volume without a name beside one that has one: half of the body would be missing.
+  GmshContent half = read_gmsh_content(kDataOfGmshSpace / "two_blocks_hex8.msh");
+  std::vector<int> entities;
+  for (const GmshContent::Block& block : half.blocks)
+    if (block.dimension == 3) entities.push_back(block.entity);
+  ASSERT_GE(entities.size(), 2U);
+  std::erase_if(half.groups, [](const GmshContent::Group& group) { return group.dimension == 3; });
+  half.groups.push_back({3, "ground", {entities.front()}});
+  EXPECT_NE(fault_of([&] {
+              return mesh_of<3>("a.msh", half);
+            }).find("has elements and no physical name, while others have one"),
+            std::string::npos);
   // Surfaces alone: Gmsh leaves the volumes out where no volume has a name.
   std::erase_if(content.blocks, [](const auto& block) { return block.dimension == 3; });
   std::erase_if(content.groups, [](const auto& group) { return group.dimension == 3; });
