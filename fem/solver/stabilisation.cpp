@@ -187,8 +187,11 @@ void Stabilisation<dim>::follow(OfElement& element, const typename Cosserat<dim>
   raise(expected.displacement, elastic * deviator_norm<dim>(strain));
   raise(largest.rotation, change.template tail<Counts::couples>().norm());
   raise(expected.rotation, norm_of_couples<dim>(element.couple_moduli, element.committed.curvature));
+  // Large micro-rotations leave a curvature of rounding, which tells nothing of the stiffness.
+  const double of_rounding = norm_of_couples<dim>(
+      element.couple_moduli, CurvatureTensor(CurvatureTensor::Constant(kRounding * element.gradient.norm())));
   element.secant = {over_first(largest.displacement, expected.displacement, elastic * kRounding),
-                    over_first(largest.rotation, expected.rotation, 0.0)};
+                    over_first(largest.rotation, expected.rotation, of_rounding)};
 }
 
 template <int dim>

@@ -262,6 +262,37 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
   }
 }
 
+// Micro-rotations alike in all nodes: what rounding leaves of their curvature softens no spring of an elastic body.
+TEST(OnePoint, RoundingSoftensNoSprings) {
+  const Mesh<3> mesh = box({{0.7, 0.9, 1.1}, {2, 2, 2}}, "H8R");
+  const Discretisation<3> discretisation(mesh, Continuum::cosserat);
+  std::vector<Response<3>> answers(discretisation.points());
+  for (Response<3>& answer : answers)
+    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
+  const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::small);
+  springs->learn(discretisation, answers);
+  const auto forces_of = [&](double alike) {
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(discretisation.nodal_size());
+    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+      const auto entry = entry_of<3>(static_cast<Eigen::Index>(node));
+      const Eigen::Vector3d& x = mesh.nodes[node];
+      const long place = std::lround(x(0) / 0.35) + std::lround(x(1) / 0.45) + std::lround(x(2) / 0.55);
+      values.segment<3>(entry + 3).setConstant(alike + (place % 2 == 0 ? 1e-3 : -1e-3));
+    }
+    NodalForces forces;
+    const Eigen::VectorXd start = Eigen::VectorXd::Zero(values.size());
+    forces.internal = forces.parts = start;
+    EXPECT_EQ(springs->evaluate({0.0, 1.0, start, values}, forces), "");
+    springs->commit();
+    springs->learn(discretisation, answers);
+    return forces.internal;
+  };
+  const Eigen::VectorXd first = forces_of(0.0);
+  EXPECT_GT(first.norm(), 1e-6);
+  for (const double alike : {0.1 / 3.0, 0.7, 1.1, 2.3, 0.4})
+    EXPECT_LT((forces_of(alike) - first).norm(), 1e-11 * first.norm()) << alike;
+}
+
 // Rough plates and plastic flow: the springs carry a share that falls with the mesh. Beside them, elements with more points.
 TEST(OnePoint, CarriesAPlasticSpecimen) {
   const double fine = squeezed<3>("H20R", 4, 0);
