@@ -30,6 +30,7 @@
 #include "app/run/take_step.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
+#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "common/stepping_note.hpp"
@@ -125,8 +126,9 @@ class Run {
 
   /// Whether a run that goes on has taken its last step, and has said all that it has to say.
   [[nodiscard]] bool is_complete() const {
-    if (first_step_ <= case_.steps()) return false;
-    std::ifstream file(directory_ / "summary.json");
+    const std::filesystem::path said = directory_ / "summary.json";
+    if (first_step_ <= case_.steps() || !why_no_input(said).empty()) return false;
+    std::ifstream file(said);
     const std::string summary((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     return summary.find("\"status\": \"done\"") != std::string::npos;
   }
