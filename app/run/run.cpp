@@ -6,11 +6,10 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "app/grains/cell_paths.hpp"
+#include "app/remarks/status_of_run.hpp"
 #include "app/run/advice.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/missed_pulses.hpp"
@@ -30,7 +29,6 @@
 #include "app/run/take_step.hpp"
 #include "common/error.hpp"
 #include "common/prefixed_archive.hpp"
-#include "common/regular_file.hpp"
 #include "common/seconds.hpp"
 #include "common/standard_streams.hpp"
 #include "common/stepping_note.hpp"
@@ -126,11 +124,7 @@ class Run {
 
   /// Whether a run that goes on has taken its last step, and has said all that it has to say.
   [[nodiscard]] bool is_complete() const {
-    const std::filesystem::path said = directory_ / "summary.json";
-    if (first_step_ <= case_.steps() || !why_no_input(said).empty()) return false;
-    std::ifstream file(said);
-    const std::string summary((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    return summary.find("\"status\": \"done\"") != std::string::npos;
+    return first_step_ > case_.steps() && status_of_run(directory_) == "done";
   }
 
   void start() {

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "app/remarks/kinds.hpp"
+#include "app/remarks/status_of_run.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -94,12 +93,7 @@ void end_of_run_before(const Scene& scene, Remarks& remarks) {
     compare_scripts(scene, *scene.the_case().run_before, remarks);
   }
   look_at_grains(scene, remarks);
-  // Without a summary the run was ended from outside, or is at work.
-  std::ifstream file(directory / "summary.json");
-  const nlohmann::json summary = nlohmann::json::parse(file, nullptr, false);
-  const auto found = summary.find("status");  // anybody may have written the file
-  const std::string status =
-      found != summary.end() && found->is_string() ? found->get<std::string>() : std::string();
+  const std::string status = status_of_run(directory);
   if (status == "done") return;
   remarks.push_back(
       {Rank::doubtful, 1.0,
