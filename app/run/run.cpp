@@ -44,6 +44,10 @@
 namespace polargrain::app {
 namespace {
 
+std::string going_on(int step, int steps) {
+  return fmt::format("going on behind step {} of {}{}", step, steps, step < steps ? "" : ", the last");
+}
+
 /// One run in the plane or in space: its parts in the order they are made.
 template <int dim>
 class Run {
@@ -115,7 +119,7 @@ class Run {
     PrefixedReader totals(from_->state, "run/");
     restore(totals, record_.costs, counts_before_);
     record_.pool = counts_before_;
-    log_.info("going on behind step {} of {}", from_->step, case_.steps());
+    log_.info("{}", going_on(from_->step, case_.steps()));
     if (from_->program != POLARGRAIN_VERSION) {
       log_.warn("the checkpoint was written by version {}: the last bits of results may differ",
                 from_->program);
@@ -625,7 +629,7 @@ int run(const RunOptions& options) {
   stop_if_interrupted("before its first step");
   if (!options.quiet) {
     tell(stdout, "{}\n", the_case.title);
-    if (from) tell(stdout, "going on behind step {} of {}\n", from->step, the_case.steps());
+    if (from) tell(stdout, "{}\n", going_on(from->step, the_case.steps()));
   }
   if (!options.quiet && !remarks.empty()) tell(stderr, "{}", text_of(remarks));
   return the_case.dimension() == 3 ? go<3>(options, std::move(the_case), directory, *lock,

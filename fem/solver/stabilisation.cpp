@@ -83,6 +83,15 @@ double norm_of_couples(const std::array<double, 3>& moduli, const Curvature& cur
   }
 }
 
+/// The rotation of a deformation from the mesh as it was made.
+template <int dim>
+StretchAndTurn<dim> path_of(const typename Cosserat<dim>::Gradient& gradient) {
+  Increment<dim> all;
+  all.configuration = Configuration::start;
+  all.displacement_gradient = gradient;
+  return stretch_and_turn(all);
+}
+
 /// Norm of the symmetric part less its mean.
 template <int dim>
 double deviator_norm(const typename Cosserat<dim>::Gradient& tensor) {
@@ -124,6 +133,7 @@ Stabilisation<dim>::Stabilisation(const Mesh<dim>& mesh, Continuum continuum, De
     for (const int node : element.nodes)
       for (const Dof dof : node_dofs<dim>()) made.entries.push_back(entry_of<dim>(node, dof));
   }
+  Stabilisation::allocate();
 }
 
 template <int dim>
@@ -135,7 +145,9 @@ void Stabilisation<dim>::allocate() {
     element.largest_stress = element.largest_elastic_stress = {};
     element.secant = {1.0, 1.0};
     element.first_stress.setZero();
-    element.committed = element.trial = {};
+    element.committed = {};
+    if (turns()) element.committed.patterns.setZero(Cosserat<dim>::rotations, element.hourglass.modes.cols());
+    element.trial = element.committed;
   }
 }
 
@@ -169,10 +181,7 @@ void Stabilisation<dim>::follow(OfElement& element, const typename Cosserat<dim>
   typename Counts::Vector change = stress;
   typename Counts::Gradient strain = element.committed.gradient;
   if (deformation_ == Deformation::large) {
-    Increment<dim> all;
-    all.configuration = Configuration::start;
-    all.displacement_gradient = strain;
-    const StretchAndTurn<dim> path = stretch_and_turn(all);
+    const StretchAndTurn<dim> path = path_of<dim>(strain);
     change = rotated(stress, inverse(path.turn));
     strain = path.stretch.displacement_gradient;
   }
@@ -201,6 +210,23 @@ Eigen::VectorXd Stabilisation<dim>::stiffness(const OfElement& element, int comp
          element.hourglass.weights;
 }
 
+// Half-way through the step the axes are known to second order; a step that turns the body alone adds nothing at all.
+template <int dim>
+typename Stabilisation<dim>::RotationPatterns Stabilisation<dim>::turned_patterns(
+    OfElement& element, const Eigen::VectorXd& increment) const requires(dim == 3) {
+  using Counts = Cosserat<dim>;
+  const Moved& start = element.committed;
+  Moved& end = element.trial;
+  const Eigen::Map<const Eigen::Matrix<double, Counts::dofs, Eigen::Dynamic>> of_nodes(
+      increment.data(), Counts::dofs, increment.size() / Counts::dofs);
+  const typename Counts::Gradient half_way = 0.5 * (start.gradient + end.gradient);
+  const Turn<dim> back = inverse(path_of<dim>(half_way).turn);
+  const auto rotations = of_nodes.template bottomRows<Counts::rotations>();
+  end.curvature = start.curvature + back * rotations * element.gradient;
+  end.patterns = start.patterns + back * rotations * element.hourglass.modes;
+  return path_of<dim>(end.gradient).turn * end.patterns;
+}
+
 template <int dim>
 std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
   using Counts = Cosserat<dim>;
@@ -211,7 +237,13 @@ std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& for
     const Eigen::VectorXd values = step.end(element.entries);
     const Eigen::Map<const Eigen::Matrix<double, Counts::dofs, Eigen::Dynamic>> of_nodes(
         values.data(), Counts::dofs, values.size() / Counts::dofs);
-    const Eigen::MatrixXd patterns = of_nodes * element.hourglass.modes;  // a row an unknown, a column a mode
+    Eigen::MatrixXd patterns = of_nodes * element.hourglass.modes;  // a row an unknown, a column a mode
+    element.trial.gradient = of_nodes.template topRows<dim>() * element.gradient;
+    element.trial.curvature = of_nodes.template bottomRows<Counts::rotations>() * element.gradient;
+    if constexpr (dim == 3)
+      if (turns())
+        patterns.template bottomRows<Counts::rotations>() =
+            turned_patterns(element, step.increment(element.entries));
     Eigen::MatrixXd resisted = patterns;
     for (int i = 0; i < Counts::dofs; ++i)
       resisted.row(i).array() *= stiffness(element, i).transpose().array();
@@ -221,8 +253,6 @@ std::string Stabilisation<dim>::evaluate(const NodalStep& step, NodalForces& for
     const Eigen::VectorXd squares = patterns.array().square().matrix() * element.hourglass.weights;
     element.trial.energy = {0.5 * element.modulus.displacement * squares.head(dim).sum(),
                             0.5 * element.modulus.rotation * squares.tail(Counts::rotations).sum()};
-    element.trial.gradient = of_nodes.template topRows<dim>() * element.gradient;
-    element.trial.curvature = of_nodes.template bottomRows<Counts::rotations>() * element.gradient;
   }
   return {};
 }
@@ -287,14 +317,17 @@ void Stabilisation<dim>::save(ArchiveWriter& archive) const {
     values.insert(values.end(), moved.curvature.reshaped().begin(), moved.curvature.reshaped().end());
     values.insert(values.end(), element.first_stress.begin(), element.first_stress.end());
     values.insert(values.end(), moved.gradient.reshaped().begin(), moved.gradient.reshaped().end());
+    values.insert(values.end(), moved.patterns.reshaped().begin(), moved.patterns.reshaped().end());
   }
   archive.write("stabilisation", std::span<const double>(values));
 }
 
 template <int dim>
 void Stabilisation<dim>::restore(ArchiveReader& archive) {
-  constexpr std::size_t kLength = 14 + Cosserat<dim>::components + dim * dim + dim * Cosserat<dim>::rotations;
-  const std::vector<double> values = read_lists(archive, "stabilisation", elements_.size(), kLength);
+  std::size_t length = 14 + Cosserat<dim>::components + dim * dim + dim * Cosserat<dim>::rotations;
+  // Patterns of one type of element, since no other has springs in space.
+  if (turns()) length += static_cast<std::size_t>(elements_.front().committed.patterns.size());
+  const std::vector<double> values = read_lists(archive, "stabilisation", elements_.size(), length);
   auto value = values.begin();
   for (OfElement& element : elements_) {
     Moved& moved = element.committed;
@@ -308,6 +341,7 @@ void Stabilisation<dim>::restore(ArchiveReader& archive) {
     for (double& part : moved.curvature.reshaped()) part = *value++;
     for (double& stress : element.first_stress) stress = *value++;
     for (double& part : moved.gradient.reshaped()) part = *value++;
+    for (double& part : moved.patterns.reshaped()) part = *value++;
     element.trial = moved;
   }
 }

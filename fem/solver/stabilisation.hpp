@@ -15,7 +15,7 @@ class Solver;
 
 /// Springs against the hourglass patterns of elements with one integration point (hourglass.hpp), of displacements and of
 /// micro-rotations. Their energy is a square of nodal values counted from the mesh as it was made, so that rigid turns of any
-/// size leave it alone. Their stiffness is a share of the tangent that the element has first, times the secant of its point:
+/// size leave it alone. In large deformation in space micro-rotations of the steps add up in the axes of the material. Their stiffness is a share of the tangent that the element has first, times the secant of its point:
 /// the largest stress so far over that of the first tangent for the largest strain. A reversal of the strain leaves it. Elastic springs would carry ever more load
 /// where grains flow (docs/theory/solver.md, elements with one point).
 template <int dim>
@@ -54,10 +54,14 @@ class Stabilisation final : public Contribution<dim> {
     double rotation = 0.0;
   };
   using CurvatureTensor = Eigen::Matrix<double, Cosserat<dim>::rotations, dim>;
+  using RotationPatterns = Eigen::Matrix<double, Cosserat<dim>::rotations, Eigen::Dynamic>;
   /// From the mesh as it was made.
   struct Moved {
     typename Cosserat<dim>::Gradient gradient = Cosserat<dim>::Gradient::Zero();  ///< mean d u_i / d x_j
-    CurvatureTensor curvature = CurvatureTensor::Zero();                          ///< mean d w_i / d x_j, 1/m
+    /// Mean d w_i / d x_j, 1/m; with i in the axes of the material where micro-rotations turn with it.
+    CurvatureTensor curvature = CurvatureTensor::Zero();
+    /// Of micro-rotations that turn with the material, in its axes, a column a mode; empty elsewhere.
+    RotationPatterns patterns = RotationPatterns(Cosserat<dim>::rotations, 0);
     Pair energy;  ///< of patterns held by springs with a secant of 1, J
   };
   struct OfElement {
@@ -77,6 +81,12 @@ class Stabilisation final : public Contribution<dim> {
     Moved committed, trial;
   };
   Stabilisation(const Mesh<dim>& mesh, Continuum continuum, Deformation deformation, double share);
+  /// Whether micro-rotations are vectors that turn with the material.
+  [[nodiscard]] bool turns() const { return dim == 3 && deformation_ == Deformation::large; }
+  /// Those at the end of the step, in the axes of space; keeps them and the curvature in the axes of the material.
+  /// @param increment of the nodal values of the element
+  RotationPatterns turned_patterns(OfElement& element, const Eigen::VectorXd& increment) const
+      requires(dim == 3);
   void follow(OfElement& element, const typename Cosserat<dim>::Vector& stress) const;
   /// Stiffness of each mode against an unknown of a node. @param component of node_dofs
   [[nodiscard]] Eigen::VectorXd stiffness(const OfElement& element, int component) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "common/memory_archive.hpp"
 #include "fem/material/cone_matching.hpp"
 #include "fem/material/elastic.hpp"
 #include "fem/material/elastoplastic.hpp"
@@ -260,6 +261,57 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
     const auto entry = entry_of<3>(static_cast<Eigen::Index>(node));
     EXPECT_LT((turned.segment<3>(entry) - turn * straight.segment<3>(entry)).norm(), 1e-13);
   }
+}
+
+// Micro-rotations of both signs, and then the body turns by 2 rad in steps: moments turn with it, whatever the step.
+TEST(OnePoint, SpringsOfMicroRotationsTurnWithTheBody) {
+  const Mesh<3> mesh = box({{0.7, 0.9, 1.1}, {2, 2, 2}}, "H8R");
+  const Discretisation<3> discretisation(mesh, Continuum::cosserat);
+  std::vector<Response<3>> answers(discretisation.points());
+  for (Response<3>& answer : answers)
+    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
+  const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::large);
+  springs->learn(discretisation, answers);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(discretisation.nodal_size());
+  const auto forces_at = [&](const Eigen::VectorXd& end) {
+    NodalForces forces;
+    forces.internal = forces.parts = Eigen::VectorXd::Zero(values.size());
+    const Eigen::VectorXd increment = end - values;
+    EXPECT_EQ(springs->evaluate({0.0, 1.0, values, increment}, forces), "");
+    springs->commit();
+    values = end;
+    return forces.internal;
+  };
+  const auto entry = [](std::size_t node) { return entry_of<3>(static_cast<Eigen::Index>(node)); };
+  Eigen::VectorXd twisted = values;
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    twisted.segment<3>(entry(node) + 3) =
+        1e-3 * Eigen::Vector3d(node % 2 == 0 ? 1 : -1, node % 3, node % 5 == 1);
+  const Eigen::VectorXd straight = forces_at(twisted);
+  EXPECT_GT(straight.norm(), 1e-5);
+  const Eigen::Vector3d about = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
+  constexpr int kSteps = 5;
+  Eigen::VectorXd turned;
+  Eigen::Matrix3d turn;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double angle = 2.0 * step / kSteps;
+    turn = Eigen::AngleAxisd(angle, about).toRotationMatrix();
+    Eigen::VectorXd end = twisted;
+    for (std::size_t node = 0; node < mesh.nodes.size(); ++node) {
+      end.segment<3>(entry(node)) = turn * mesh.nodes[node] - mesh.nodes[node];
+      end.segment<3>(entry(node) + 3) += angle * about;
+    }
+    turned = forces_at(end);
+  }
+  for (std::size_t node = 0; node < mesh.nodes.size(); ++node)
+    EXPECT_LT((turned.segment<3>(entry(node) + 3) - turn * straight.segment<3>(entry(node) + 3)).norm(),
+              1e-13 * straight.norm())
+        << node;
+  MemoryArchive kept;
+  springs->save(kept);
+  springs->allocate();
+  springs->restore(kept);
+  EXPECT_EQ(forces_at(values), turned);
 }
 
 // Micro-rotations alike in all nodes: what rounding leaves of their curvature softens no spring of an elastic body.
