@@ -45,6 +45,7 @@ RATE = 0.06  # 1/s, of the specimens: inertial number 1.0e-4
 QUICK = 0.24  # 3.9e-4
 SLOW = 1e-4  # inertial number of the cells in an element test
 LENGTH = 3.5  # mm; what a sheared layer asks for (docs/studies/internal_length.md)
+SPREAD = 50.0  # mm; of the same layers, five diameters
 PLASTIC_LENGTH = 7.2  # mm; what layers ask for where the couple stress has a limit, with an elastic one of 1 to 10 mm
 
 
@@ -63,6 +64,7 @@ class Run:
     across: int = 0      # elements
     lc: float = LENGTH   # mm
     large: bool = False  # deformation: equilibrium on the moved mesh
+    spread: float = 0.0  # of slips, mm; in place of micro-rotations
     mirrored: bool = False
     doubled: bool = False  # packings, their grains with them, twice as large
     settings: tuple = ()  # of all its materials, or of a case in closed form
@@ -80,11 +82,11 @@ def elements(grains, seeds, inertial=SLOW, leaning=False):
                 leaning=leaning) for seed in seeds]
 
 
-def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, large=False, words="", settings=()):
+def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, large=False, spread=0.0, words="", settings=()):
     """Smooth platens; the corner is 50 mm wide where elements are as small, else one element."""
     group = (f"{scheme}-{across}x{2 * across}" + (f"-cells{grains}" if grains != 400 else "") + (f"-lc{lc:g}" if lc != LENGTH else "") +
-             ("-mirrored" if mirrored else "") + ("-large" if large else "") + (f"-{words}" if words else ""))
-    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored, large=large,
+             ("-mirrored" if mirrored else "") + ("-large" if large else "") + (f"-spread{spread:g}" if spread else "") + (f"-{words}" if words else ""))
+    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored, large=large, spread=spread,
                 case="biaxial_cell.yaml" if scheme in ("cell", "controlled") else "biaxial_informed.yaml", settings=tuple(settings))
             for pair in pairs]
 
@@ -136,6 +138,8 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
              *rough(4, to(5), grains=400),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),
+             *(run for scheme, across in (("informed", 8), ("informed", 16), ("cell", 8), ("cell", 16)) for run in two_scale(
+                 scheme, across, to(10), spread=SPREAD)),
              *specimens(5000, to(10)), *elements(10000, to(3)), *specimens(20000, to(3))]}
 KNOWN = {run.name: run for runs in RUNS.values() for run in runs}
 
@@ -265,7 +269,9 @@ class Study:
             settings.append("deformation=large")
         words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "informed: {update: fixed_point}"]}.get(
             run.scheme, [f"model: {run.scheme}"])
-        if run.scheme != "controlled":
+        if run.spread:
+            settings.append(f"continuum={{kind: cauchy, spread: {run.spread:g} mm}}")
+        elif run.scheme != "controlled":
             words.append(f"lc: {run.lc:g} mm")
         for sand, seed in zip(("sand", "weak_sand"), self.weaker_last(run)):
             keys = [*words, f"script: {SCRIPT}", f"packing: {self.packing(run, run.grains, seed, run.mirrored)}",

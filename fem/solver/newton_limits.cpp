@@ -73,7 +73,7 @@ Attempt Newton<dim>::limit_predictor(const StepGoal& goal, Iterate& iterate, Cor
 
 template <int dim>
 Correction Newton<dim>::last_step_drawn_on(const StepGoal& goal, const Iterate& iterate) const {
-  if (state.last_increment.size() == 0 || !problem.fields.empty()) return {};
+  if (state.last_increment.size() == 0) return {};
   Correction drawn_on{state.last_increment, 0.0};
   // The given part of it: the increments of this goal, or so many times their growth with the time.
   Eigen::VectorXd given = goal.controls_time() ? iterate.displacement : constraints.slope(iterate.time);

@@ -325,7 +325,38 @@ TEST(equilibrate, gives_up_with_a_reason) {
   EXPECT_NE(report.message.find("too long a step"), std::string::npos) << report.message;
 }
 
-TEST(absurd_corrections, are_not_asked_of_the_material) {
+/// A field beside the displacements that stays zero.
+class IdleField final : public StatelessContribution<2> {
+ public:
+  explicit IdleField(Problem<2>& problem) {
+    NodalField field{"idle", "K", {}};
+    for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node)
+      field.nodes.push_back(static_cast<int>(node));
+    problem.fields = {field};
+    for (const int node : field.nodes) entries_.push_back({problem.places().entry(0, node)});
+  }
+  [[nodiscard]] std::string name() const override { return "an idle field"; }
+  [[nodiscard]] std::size_t elements() const override { return entries_.size(); }
+  [[nodiscard]] const std::vector<int>& entries(std::size_t element) const override {
+    return entries_[element];
+  }
+  [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override {
+    for (const std::vector<int>& entry : entries_) {
+      forces.internal(entry) += step.end(entry);
+      forces.parts(entry) += Eigen::VectorXd::Ones(1);
+    }
+    return {};
+  }
+  [[nodiscard]] Eigen::MatrixXd tangent(std::size_t) const override { return Eigen::MatrixXd::Ones(1, 1); }
+
+ private:
+  std::vector<std::vector<int>> entries_;
+};
+
+class AbsurdCorrections : public ::testing::TestWithParam<bool> {};
+
+// The parameter: with a field beside the displacements.
+TEST_P(AbsurdCorrections, AreNotAskedOfTheMaterial) {
   double asked = 0.0;
   enum class Control { time, measure };
   const auto column = [&](SolverOptions options, Control control) {
@@ -340,6 +371,7 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
     problem.prescribed = {{"bottom", Dof::u2, kZeroOfNoise, {}},
                           {"bottom_left", Dof::u1, kZeroOfNoise, {}},
                           {"top", Dof::u2, TimeTable::ramp(-0.0008), {}}};
+    if (GetParam()) problem.contributions.push_back(std::make_shared<IdleField>(problem));
     Solver<2> solver(std::move(problem), options);
     EXPECT_TRUE(solver.equilibrate().converged);
     EXPECT_TRUE(solver.advance(0.25).converged);
@@ -367,6 +399,7 @@ TEST(absurd_corrections, are_not_asked_of_the_material) {
     EXPECT_EQ(limited.iterations, 1);
   }
 }
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutAField, AbsurdCorrections, ::testing::Bool());
 
 TEST(absurd_corrections, cut_the_step_when_there_is_no_other_way) {
   double asked = 0.0;
