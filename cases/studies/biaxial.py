@@ -138,8 +138,8 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for across in (2, 4, 8) for run in rough(across, to(10))), *rough(4, to(10), mirrored=True), *rough(4, to(10), doubled=True),
              *rough(4, to(5), grains=400),
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),
-             *(run for scheme, across in (("informed", 8), ("informed", 16), ("cell", 8), ("cell", 16)) for run in two_scale(
-                 scheme, across, to(10), spread=SPREAD)),
+             *(run for scheme, across in (("informed", 8), ("informed", 16), ("cell", 8)) for large in (False, True)
+               for run in two_scale(scheme, across, to(10), large=large, spread=SPREAD)),
              *specimens(5000, to(10)), *elements(10000, to(3)), *specimens(20000, to(3))]}
 KNOWN = {run.name: run for runs in RUNS.values() for run in runs}
 

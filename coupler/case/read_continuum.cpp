@@ -17,10 +17,6 @@ void refuse(const Entry& entry, const Entry& document, CaseParts& parts) {
   const auto fault = [&](const std::string& text) {
     parts.faults.push_back(entry.fault("continuum: spread: " + text));
   };
-  if (parts.result.dimension() == 3) fault("slips are spread in the plane alone; leave spread out");
-  if (parts.result.with_problem([](const auto& problem) { return problem.deformation; }) ==
-      fem::Deformation::large)
-    fault("slips are spread in small deformation alone; leave 'deformation: large' out");
   if (dem_steps_of(document) > 0)
     fault("explicit steps do not spread slips; leave 'method' out of the steps");
   if (builds_in_stages(document)) fault("slips are spread where no region comes or goes; leave spread out");

@@ -10,12 +10,13 @@
 namespace polargrain::coupler {
 
 /// A material with grains whose slips are spread; the grains can be looked at as before.
-class SlipDrivenCells final : public fem::SlipDrivenMaterial, public GrainsOfPoints {
+template <int dim>
+class SlipDrivenCells final : public fem::SlipDrivenMaterial<dim>, public GrainsOfPoints {
  public:
-  /// @param material not null; a fem::Material<2> that shows grains
+  /// @param material not null; a fem::Material<dim> that shows grains
   template <class Cells>
   explicit SlipDrivenCells(const std::shared_ptr<Cells>& material)
-      : fem::SlipDrivenMaterial(material), grains_(material) {}
+      : fem::SlipDrivenMaterial<dim>(material), grains_(material) {}
 
   [[nodiscard]] StatePointer grains_of(std::size_t point) const override { return grains_->grains_of(point); }
   [[nodiscard]] std::string at_limits() const override { return grains_->at_limits(); }

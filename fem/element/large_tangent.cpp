@@ -278,6 +278,38 @@ Eigen::MatrixXd large_tangent<3>(const PointGeometry<3>& end, const PointGeometr
   return end.volume * (strain_matrix<3>(end, continuum).transpose() * stresses + shape);
 }
 
+template <int dim>
+StrainMatrix<dim> large_strain_matrix(const PointGeometry<dim>& end, const PointGeometry<dim>& start,
+                                      const Increment<dim>& increment, Continuum continuum,
+                                      bool is_averaged) {
+  const auto step = [&] {
+    if constexpr (dim == 2)
+      return StepKinematics(increment, continuum);
+    else
+      return SpaceStep(increment, continuum);
+  }();
+  const auto nodes = end.shape.size();
+  StrainMatrix<dim> strains(Cosserat<dim>::components, entry_of<dim>(nodes));
+  for (Eigen::Index a = 0; a < nodes; ++a) {
+    for (int i = 0; i < dim; ++i)
+      strains.col(entry_of<dim>(a) + i) =
+          step.of_displacement(felt_gradient<dim>(end, start, increment, is_averaged, a, i)).strain;
+    for (int i = 0; i < Cosserat<dim>::rotations; ++i) {
+      const auto column = entry_of<dim>(a) + dim + i;
+      if constexpr (dim == 2)
+        strains.col(column) = step.of_rotation(start.shape(a), start.gradient.row(a).transpose()).strain;
+      else
+        strains.col(column) = step.of_rotation(i, start.shape(a), start.gradient.row(a).transpose()).strain;
+    }
+  }
+  return strains;
+}
+
+template StrainMatrix<2> large_strain_matrix<2>(const PointGeometry<2>&, const PointGeometry<2>&,
+                                                const Increment<2>&, Continuum, bool);
+template StrainMatrix<3> large_strain_matrix<3>(const PointGeometry<3>&, const PointGeometry<3>&,
+                                                const Increment<3>&, Continuum, bool);
+
 namespace {
 
 /// Mean normal stress of the plane or of space.

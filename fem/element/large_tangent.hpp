@@ -17,6 +17,12 @@ Eigen::MatrixXd large_tangent(const PointGeometry<dim>& end, const PointGeometry
                               const Increment<dim>& increment, Continuum continuum,
                               const Response<dim>& response, std::span<const PointGeometry<dim>> places = {});
 
+/// How the strain that the law is given changes with the nodal values, in the axes of the end of the step.
+/// @param is_averaged the point stands for averaged_places
+template <int dim>
+StrainMatrix<dim> large_strain_matrix(const PointGeometry<dim>& end, const PointGeometry<dim>& start,
+                                      const Increment<dim>& increment, Continuum continuum, bool is_averaged);
+
 /// The further stiffness of elements with mean dilatation: their mean gradients change with the shape of the element.
 /// @param points of the element at the end of the step @param answers as many
 template <int dim>

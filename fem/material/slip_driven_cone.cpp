@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "common/packed_values.hpp"
+#include "fem/material/rotation.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -128,8 +129,15 @@ template <int dim>
 void SlipDrivenCone<dim>::evaluate(std::span<const Increment<dim>> increments,
                                    std::span<Response<dim>> responses) {
   for (std::size_t i = 0; i < committed_.size(); ++i) {
+    const StretchAndTurn<dim> step = stretch_and_turn(increments[i]);
+    SlipAnswer<dim>& own = trial_answers_[i];
     responses[i] = Response<dim>{};
-    answer(committed_[i], increments[i].strain(), slips_[i], trial_[i], responses[i], trial_answers_[i]);
+    answer(committed_[i], step.stretch.strain(), slips_[i], trial_[i], responses[i], own);
+    if (increments[i].configuration == Configuration::fixed) continue;
+    trial_[i].stress = rotated(trial_[i].stress, step.turn);
+    responses[i] = rotated(responses[i], step.turn);
+    own.stress_by_slip = rotated(own.stress_by_slip, step.turn);
+    own.drive_by_strain = rotated(own.drive_by_strain, step.turn);
   }
 }
 

@@ -29,7 +29,7 @@ class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
 
   void allocate(std::size_t points) override;
   void set_initial_stress(std::size_t point, const Vector& stress) override;
-  [[nodiscard]] bool can_turn() const override { return false; }
+  [[nodiscard]] bool can_turn() const override { return true; }
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   void revert() override;

@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "fem/element/corner_shape.hpp"
 #include "fem/element/dofs.hpp"
+#include "fem/element/large_tangent.hpp"
 
 namespace polargrain::fem {
 namespace {
@@ -23,7 +24,7 @@ template <int dim>
 SpreadSlip<dim>::SpreadSlip(const Problem<dim>& problem, std::size_t field,
                             const std::map<std::string, std::shared_ptr<SlipDriven<dim>>>& materials,
                             SpreadOptions options)
-    : options_(options) {
+    : options_(options), continuum_(problem.continuum), moves_(problem.deformation == Deformation::large) {
   const FieldPlaces<dim> places = problem.places();
   // The points of a material stand in the order of the mesh, whatever regions they are in (PointMaterials).
   std::map<int, std::size_t> batch_of_element;
@@ -43,6 +44,8 @@ void SpreadSlip<dim>::add_element(const Problem<dim>& problem, const FieldPlaces
   const int corners = element.type->corners;
   const double length = options_.width / kWidthOverLength;
   Part& part = elements_.emplace_back();
+  part.type = element.type;
+  part.nodes = problem.mesh.element_positions(number);
   part.batch = batch;
   part.first = batches_[batch].slips.size();
   for (const int node : element.nodes)
@@ -64,7 +67,7 @@ void SpreadSlip<dim>::add_element(const Problem<dim>& problem, const FieldPlaces
     const double volume = points[i].volume;
     part.mass += volume * shapes[i].value;
     part.spread += (volume * length * length) * shapes[i].derivative * shapes[i].derivative.transpose();
-    part.points.push_back({volume, shapes[i].value, strain_matrix<dim>(points[i], problem.continuum)});
+    part.points.push_back({volume, shapes[i].value, strain_matrix<dim>(points[i], continuum_)});
   }
   part.spread.diagonal() += part.mass;
   batches_[batch].slips.resize(part.first + points.size(), 0.0);
@@ -96,6 +99,10 @@ void SpreadSlip<dim>::prepare(const NodalStep& step) {
 // The signs make the tangent symmetric where the flow of the material is associated.
 template <int dim>
 std::string SpreadSlip<dim>::evaluate(const NodalStep& step, NodalForces& forces) {
+  if (moves_) {
+    start_ = step.start;
+    increment_ = step.increment;
+  }
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
     const Eigen::VectorXd overstress = step.end(part.overstresses);
@@ -142,6 +149,31 @@ void SpreadSlip<dim>::evaluate_between(const Part& part, const NodalStep& step, 
 }
 
 template <int dim>
+std::vector<typename SpreadSlip<dim>::Coupling> SpreadSlip<dim>::couplings(const Part& part) const {
+  std::vector<Coupling> made;
+  if (!moves_) {
+    for (const Point& point : part.points) made.push_back({point.volume, point.strain, point.strain});
+    return made;
+  }
+  constexpr int kDofs = Cosserat<dim>::dofs;
+  const auto nodes = part.nodes.rows();
+  const std::vector<int> entries(part.entries.begin(), part.entries.begin() + kDofs * nodes);
+  const Eigen::VectorXd start = start_(entries), increment = increment_(entries);
+  const auto moved_by = [&](const Eigen::VectorXd& values) -> VectorRows<dim> {
+    return values.reshaped(kDofs, nodes).template topRows<dim>().transpose();
+  };
+  const VectorRows<dim> before = part.nodes + moved_by(start), behind = before + moved_by(increment);
+  const auto starts = point_geometries<dim>(*part.type, before),
+             ends = point_geometries<dim>(*part.type, behind);
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    made.push_back({ends[i].volume, strain_matrix<dim>(ends[i], continuum_),
+                    large_strain_matrix<dim>(ends[i], starts[i],
+                                             large_increment_at<dim>(starts[i], continuum_, increment, 1.0),
+                                             continuum_, !part.type->averaged.empty())});
+  return made;
+}
+
+template <int dim>
 Eigen::MatrixXd SpreadSlip<dim>::tangent(std::size_t e) const {
   const Part& part = elements_[e];
   const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
@@ -149,13 +181,15 @@ Eigen::MatrixXd SpreadSlip<dim>::tangent(std::size_t e) const {
   const auto size = static_cast<Eigen::Index>(part.entries.size());
   const auto moved = size - kFields * corners;
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
+  const std::vector<Coupling> couplings = this->couplings(part);
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const auto& [volume, shape, strain] = part.points[i];
+    const Coupling& coupling = couplings[i];
     const SlipAnswer<dim>& answer = answers[i];
     tangent.block(0, moved, moved, corners) +=
-        volume * (strain.transpose() * answer.stress_by_slip) * shape.transpose();
+        coupling.volume * (coupling.of_forces.transpose() * answer.stress_by_slip) * shape.transpose();
     tangent.block(moved, 0, corners, moved) -=
-        volume * shape * (strain.transpose() * answer.drive_by_strain).transpose();
+        volume * shape * (coupling.of_drive.transpose() * answer.drive_by_strain).transpose();
     tangent.block(moved, moved, corners, corners) -=
         (volume * answer.drive_by_slip) * shape * shape.transpose();
   }
@@ -178,8 +212,6 @@ Eigen::MatrixXd SpreadSlip<dim>::tangent(std::size_t e) const {
 template <int dim>
 std::vector<std::string> SpreadSlip<dim>::faults(const Problem<dim>& problem) const {
   std::vector<std::string> messages;
-  if (problem.deformation == Deformation::large)
-    messages.emplace_back("slips are spread in small deformation only, so far");
   if (!problem.lifetimes.empty())
     messages.emplace_back("slips are spread where no region comes or goes, so far");
   return messages;

@@ -37,7 +37,7 @@ inline constexpr const char* kSpreadFields[] = {kSlip, kOverstress, kSlipBetween
 ///
 /// with the drive F of the law, its spread overstress mu, and a small r. One line of sources slips by (1 + |x|/l) exp(-|x|/l). A once
 /// would have a cusp, which sources on the staircase of nodes along an inclined band cut off (docs/theory/spread.md). Materials answer at the slip g (SlipDriven). Slip and
-/// overstress have values at the corners of elements. Small deformation.
+/// overstress have values at the corners of elements. In large deformation slips spread over the mesh as it was made.
 template <int dim>
 class SpreadSlip final : public StatelessContribution<dim> {
  public:
@@ -61,6 +61,8 @@ class SpreadSlip final : public StatelessContribution<dim> {
     StrainMatrix<dim> strain;
   };
   struct Part {  ///< an element
+    const ElementType<dim>* type;
+    VectorRows<dim> nodes;  ///< where they are, a row a node
     std::size_t batch;
     std::size_t first;         ///< its first point among those of the material
     std::vector<int> entries;  ///< displacements and micro-rotations, slips, overstresses, and those between
@@ -77,10 +79,19 @@ class SpreadSlip final : public StatelessContribution<dim> {
   };
   void add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field, int number,
                    std::size_t batch);
+  /// How stresses and drives of the last evaluation, in the axes of the end of the step, meet the displacements.
+  struct Coupling {
+    double volume;
+    StrainMatrix<dim> of_forces, of_drive;
+  };
+  [[nodiscard]] std::vector<Coupling> couplings(const Part& part) const;
   /// The rows between the drive and the overstress, and between the source and the slip.
   void evaluate_between(const Part& part, const NodalStep& step, NodalForces& forces) const;
 
   SpreadOptions options_;
+  Continuum continuum_;
+  bool moves_;                         ///< large deformation
+  Eigen::VectorXd start_, increment_;  ///< of the last evaluation, where the mesh moves
   double stiffness_ =
       1.0;  ///< by which rows and values of the overstress are measured, Pa; of the first answers
   std::vector<Batch> batches_;

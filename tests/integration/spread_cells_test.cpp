@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Slips of cells that are spread, by the whole program: uniform states, workers, a run that is killed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,6 +38,24 @@ class SpreadCells : public ::testing::Test {
               "steps: {count: 8, tolerance: 5e-3, noise: 2}\n"
               "monitors: {top_force: {on: top, reaction: u2}}\n");
   }
+  void write_case_in_space(const std::string& continuum, const std::string& model) const {
+    write(scratch_.path() / "case.yaml",
+          "title: Cells of spheres that slip together\ncontinuum: " + continuum +
+              "\nmesh: {box: {size: [0.1 m, 0.1 m, 0.3 m], elements: [1, 1, 3]}, element: H8R}\n"
+              "materials:\n  sand: {model: " +
+              model + ", script: cells/spheres_hooke_radii.in, packing: " +
+              (kSource / "cases/spheres/packing1000.csv").string() +
+              "}\n"
+              "regions: {all: sand}\n"
+              "boundary:\n"
+              "  - {on: bottom, fix: [u3]}\n"
+              "  - {on: left, fix: [u1]}\n"
+              "  - {on: front, fix: [u2]}\n"
+              "  - {on: top, move: {u3: -1.5 mm}}\n"
+              "  - {on: [right, back], pressure: 100 kPa}\n"
+              "steps: {count: 10, tolerance: 2e-3, noise: 2}\n"
+              "monitors: {top_force: {on: top, reaction: u3}}\n");
+  }
   std::vector<double> forces(const std::string& name) const {
     const Outcome run = run_in(scratch_.path(), POLARGRAIN " run case.yaml -w 2 --quiet -o " + name);
     EXPECT_EQ(run.status, 0) << run.errors;
@@ -50,15 +69,18 @@ constexpr const char* kSpread = "{kind: cauchy, spread: 0.2 m}";
 
 TEST_F(SpreadCells, AUniformSpecimenBearsWhatItsCellsBear) {
   for (const char* model : {"cell", "informed"}) {
-    write_case("cauchy", model);
-    const std::vector<double> local = forces(std::string("local_") + model);
-    write_case(kSpread, model);
-    const std::vector<double> spread = forces(std::string("spread_") + model);
-    ASSERT_EQ(spread.size(), local.size());
-    // Both are balanced to 0.5 % of the forces of all supports.
-    for (std::size_t k = 0; k < local.size(); ++k)
-      EXPECT_NEAR(spread[k], local[k], 0.01 * std::abs(local[k])) << model << " " << k;
-    EXPECT_GT(local.back() / local.front(), 2.0) << model;
+    for (const bool in_space : {false, true}) {
+      const auto made = [&](const char* continuum) {
+        in_space ? write_case_in_space(continuum, model) : write_case(continuum, model);
+        return forces(fmt::format("{}_{}_{}", model, in_space, continuum == kSpread));
+      };
+      const std::vector<double> local = made("cauchy"), spread = made(kSpread);
+      ASSERT_EQ(spread.size(), local.size());
+      // Both are balanced to 0.5 % of the forces of all supports, stiff spheres to 0.2 %.
+      for (std::size_t k = 0; k < local.size(); ++k)
+        EXPECT_NEAR(spread[k], local[k], 0.01 * std::abs(local[k])) << model << " " << in_space << " " << k;
+      EXPECT_GT(local.back() / local.front(), 2.0) << model << " " << in_space;
+    }
   }
 }
 

@@ -33,11 +33,7 @@ class CellRecipe : public MaterialRecipe {
         residents_(residents),
         iterates_(files.iterates),
         spreads_(files.spreads_slips) {}
-  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override {
-    if (!spreads_) return made<2>(*pool);
-    std::string note;
-    return std::make_shared<SlipDrivenCells>(cells<2>(*pool, cosserat(*pool, note), note));
-  }
+  [[nodiscard]] std::shared_ptr<fem::Material<2>> make(Pool* pool) const override { return made<2>(*pool); }
   [[nodiscard]] std::shared_ptr<fem::Material<3>> make_in_space(Pool* pool) const override {
     return made<3>(*pool);
   }
@@ -60,6 +56,7 @@ class CellRecipe : public MaterialRecipe {
   [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
     std::string note;
     const std::optional<CosseratParameters> cosserat = this->cosserat(pool, note);
+    if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(cells<dim>(pool, cosserat, note));
     if (!residents_) return cells<dim>(pool, cosserat, note);
     CellDefinition moving = definition_;
     moving.control.damping = residents_->damping;

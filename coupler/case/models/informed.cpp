@@ -56,8 +56,7 @@ class InformedRecipe : public MaterialRecipe {
       }
       auto material = std::make_shared<InformedMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
                                                               parameters, note, std::move(with_tangent));
-      if constexpr (wanted == 2)
-        if (spreads_) return std::make_shared<SlipDrivenCells>(material);
+      if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(material);
       if (ask_every_ == 0) return material;
       return std::make_shared<GatheredMaterial<dim>>(std::move(material), ask_every_);
     } else {
