@@ -41,8 +41,8 @@ SpaceSamples space_increment(const std::filesystem::path& from, const std::files
   if (first.mesh.nodes.size() != last.mesh.nodes.size() ||
       first.mesh.elements.size() != last.mesh.elements.size())
     throw InputError({to.string(), 0, "the mesh differs from the frame before"});
-  const fem::Field* const turned_before = vectors(first, "micro_rotation");
-  const fem::Field* const turned_after = vectors(last, "micro_rotation");
+  const fem::Field* const turned_before = vectors(first, "micro_rotation_vector");
+  const fem::Field* const turned_after = vectors(last, "micro_rotation_vector");
   SpaceSamples samples;
   for (std::size_t e = 0; e < first.mesh.elements.size(); ++e) {
     const fem::Element<3>& element = first.mesh.elements[e];

@@ -103,7 +103,9 @@ class AnswerTable {
 /// The rows as the case deforms: in large deformation each counts from the shape at its start, and stresses turn.
 std::vector<Increment<2>> path_for(const coupler::Case& the_case, const std::filesystem::path& file) {
   std::vector<Increment<2>> path = read_path(file);
-  if (the_case.problem.deformation == fem::Deformation::small) return path;
+  if (the_case.with_problem([](const auto& problem) { return problem.deformation; }) ==
+      fem::Deformation::small)
+    return path;
   for (Increment<2>& increment : path) increment.configuration = Configuration::start;
   return path;
 }
@@ -162,6 +164,13 @@ std::vector<CellResponse> answers_of(coupler::Pool& pool, const CellDefinition& 
 coupler::Case case_for(const PointOptions& options) {
   coupler::Case plain = coupler::read_case(options.case_file, options.settings, options.scripts);
   const auto recipe = plain.materials.find(options.material);
+  if (plain.dimension() == 3 && recipe != plain.materials.end() && recipe->second->cell() == nullptr)
+    throw InputError(
+        {options.case_file.string(), 0,
+         fmt::format(
+             "material '{}': 'point' follows paths of the plane, and of a mesh in space it knows 'model: cell' "
+             "alone; take 'polargrain element', or a mesh of the plane",
+             options.material)});
   if (options.replay.empty() || recipe == plain.materials.end() || recipe->second->cell() == nullptr)
     return plain;
   std::vector<std::string> settings = options.settings;

@@ -36,6 +36,13 @@ const std::vector<std::string> kUsualFields{"deviatoric_strain",
                                             "source",
                                             "error_estimate"};
 
+/// A micro-rotation in space is a vector.
+std::vector<std::string> usual_fields(int dimension) {
+  std::vector<std::string> names = kUsualFields;
+  if (dimension == 3) std::ranges::replace(names, "micro_rotation", "micro_rotation_vector");
+  return names;
+}
+
 /// Corners and middle nodes around an outline. @param nodes its corners, then its middle nodes if it has some
 std::vector<int> around(const std::vector<int>& nodes, int corners) {
   std::vector<int> made;
@@ -156,7 +163,7 @@ MeshPicture picture_for(const RunResult& result, const std::vector<std::string>&
   const std::vector<Outline> outlines = outlines_of(last.mesh);
   picture.all_elements = last.mesh.elements.size();
   std::vector<std::string> names;
-  for (const std::string& name : fields.empty() ? kUsualFields : fields) {
+  for (const std::string& name : fields.empty() ? usual_fields(dim) : fields) {
     if (!values_of(last.fields, outlines, name).empty()) {
       names.push_back(name);
       picture.fields.push_back({name, unit_of(last.fields, name)});

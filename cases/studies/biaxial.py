@@ -62,6 +62,7 @@ class Run:
     case: str = ""
     scheme: str = ""
     across: int = 0      # elements
+    width: float = 0.2   # m, of a specimen at two scales; the height is twice that
     lc: float = LENGTH   # mm
     large: bool = False  # deformation: equilibrium on the moved mesh
     spread: float = 0.0  # of slips, mm; in place of micro-rotations
@@ -82,11 +83,11 @@ def elements(grains, seeds, inertial=SLOW, leaning=False):
                 leaning=leaning) for seed in seeds]
 
 
-def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, large=False, spread=0.0, words="", settings=()):
+def two_scale(scheme, across, pairs, grains=400, lc=LENGTH, mirrored=False, large=False, spread=0.0, width=0.2, words="", settings=()):
     """Smooth platens; the corner is 50 mm wide where elements are as small, else one element."""
     group = (f"{scheme}-{across}x{2 * across}" + (f"-cells{grains}" if grains != 400 else "") + (f"-lc{lc:g}" if lc != LENGTH else "") +
-             ("-mirrored" if mirrored else "") + ("-large" if large else "") + (f"-spread{spread:g}" if spread else "") + (f"-{words}" if words else ""))
-    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored, large=large, spread=spread,
+             ("-mirrored" if mirrored else "") + ("-large" if large else "") + (f"-spread{spread:g}" if spread else "") + (f"-width{width:g}" if width != 0.2 else "") + (f"-{words}" if words else ""))
+    return [Run(f"{group}-pair{pair}", "two_scale", group, pair, grains, scheme=scheme, across=across, lc=lc, mirrored=mirrored, large=large, spread=spread, width=width,
                 case="biaxial_cell.yaml" if scheme in ("cell", "controlled") else "biaxial_informed.yaml", settings=tuple(settings))
             for pair in pairs]
 
@@ -140,6 +141,7 @@ RUNS = {  # by size; in one list the cheapest and most decisive first
              *(run for scheme in ("informed", "fixed_point", "cell", "controlled") for run in two_scale(scheme, 16, to(10))),
              *(run for scheme, across in (("informed", 8), ("informed", 16), ("cell", 8)) for large in (False, True)
                for run in two_scale(scheme, across, to(10), large=large, spread=SPREAD)),
+             *(run for large in (False, True) for run in two_scale("informed", 20, to(10), large=large, spread=SPREAD, width=0.5)),
              *specimens(5000, to(10)), *elements(10000, to(3)), *specimens(20000, to(3))]}
 KNOWN = {run.name: run for runs in RUNS.values() for run in runs}
 
@@ -263,8 +265,12 @@ class Study:
         return sorted(peaks, key=peaks.get, reverse=True)
 
     def two_scale(self, run):
-        settings = [f"mesh.rectangle.elements=[{run.across}, {2 * run.across}]",
-                    f"mesh.rectangle.patch=[{max(0.05, 0.2 / run.across):.6g} m, {max(0.05, 0.2 / run.across):.6g} m]"]
+        width, height = run.width, 2 * run.width
+        patch = f"{max(0.05, width / run.across):.6g} m"
+        settings = [f"mesh.rectangle.elements=[{run.across}, {2 * run.across}]", f"mesh.rectangle.patch=[{patch}, {patch}]"]
+        if width != 0.2:
+            settings += [f"mesh.rectangle.size=[{width:g} m, {height:g} m]", f"monitors.axial_strain=-shortening / {height:g} m",
+                         f"monitors.stress_ratio=-top_force / ({width:g} m * 100 kPa)"]
         if run.large:
             settings.append("deformation=large")
         words = {"controlled": ["model: cell", "rotations: controlled"], "fixed_point": ["model: informed", "informed: {update: fixed_point}"]}.get(
@@ -277,7 +283,7 @@ class Study:
             keys = [*words, f"script: {SCRIPT}", f"packing: {self.packing(run, run.grains, seed, run.mirrored)}",
                     "most_relaxation_steps: 100000", *run.settings]
             settings.append(f"materials.{sand}={{{', '.join(keys)}}}")
-        self.finite_elements(run, settings + self.steps(2, 0.4, 1000))
+        self.finite_elements(run, settings + self.steps(2, height, 1000))
 
     def rough(self, run):
         keys = "model: cell, rotations: controlled, script: cells/hooke_li_chu.in, most_relaxation_steps: 100000"

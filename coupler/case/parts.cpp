@@ -24,6 +24,14 @@ const std::vector<std::string>& dof_names(int dimension) {
   return dimension == 2 ? plane : space;
 }
 
+std::vector<std::string> known_dofs(const CaseParts& parts) {
+  std::vector<std::string> names = dof_names(parts.result.dimension());
+  if (!parts.has_mesh)
+    for (const std::string& name : dof_names(3))
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
+}
+
 fem::Dof dof_of(const std::string& name) {
   for (const fem::Dof dof : fem::node_dofs<3>())
     if (fem::name_of<3>(dof) == name) return dof;

@@ -21,6 +21,9 @@ namespace polargrain::coupler {
 const std::vector<std::string>& dof_names(int dimension);
 /// @param name one of dof_names()
 fem::Dof dof_of(const std::string& name);
+struct CaseParts;
+/// The names of dof_names; both of the plane and of space where the mesh has a fault, which may be of either.
+std::vector<std::string> known_dofs(const CaseParts& parts);
 /// Of a prescribed value: a length, or an angle.
 Dimension dimension_of(fem::Dof dof);
 
@@ -164,7 +167,9 @@ void read_start(Section& top, CaseParts& parts);
 void read_profiles(const Entry& entry, CaseParts& parts);
 /// The nodes of a curve, along it from its lowest end (the left one, of these the lower one); around a closed one against the clock,
 /// back to its lowest place. Of what is no curve, by their coordinates. Nodes at one place are one.
-std::vector<std::vector<double>> places_along(const fem::Mesh<2>& mesh, const std::string& on);
+/// In space along the edges of elements; a closed curve begins at its lowest place.
+template <int dim>
+std::vector<std::vector<double>> places_along(const fem::Mesh<dim>& mesh, const std::string& on);
 /// A monitor with the key `at`: a place inside of the body.
 void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts);
 /// The list below steps.stages: adds to the plan, and to the problem what begins in its stages.

@@ -271,8 +271,7 @@ class CaseReader {
                                     listed(dof_names(case_.dimension())) + ", or a formula"));
     } else {
       monitor.kind = reaction ? Monitor::Kind::reaction : Monitor::Kind::displacement;
-      const std::string dof =
-          section.choice(reaction ? "reaction" : "displacement", dof_names(case_.dimension()));
+      const std::string dof = section.choice(reaction ? "reaction" : "displacement", known_dofs(parts_));
       if (!dof.empty()) monitor.dof = dof_of(dof);
       if (!dof.empty() && fem::is_rotation(monitor.dof) && is_classical())
         section.fault(

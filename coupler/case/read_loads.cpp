@@ -58,7 +58,7 @@ bool dof_tables(Section& section, const std::string& key, const std::function<Di
   const Entry* entry = section.find(key);
   if (entry == nullptr) return false;
   Section values(*entry, section.name() + ": " + key, parts.faults);
-  for (const std::string& name : dof_names(parts.result.dimension())) {
+  for (const std::string& name : known_dofs(parts)) {
     if (values.find(name) == nullptr) continue;
     const fem::Dof dof = dof_of(name);
     take(dof, time_table(values, name, dimension(dof), single, parts));
@@ -116,7 +116,7 @@ bool read_accelerations(Section& item, CaseParts& parts,
   const Entry* const entry = item.find("accelerate");
   if (entry == nullptr) return false;
   Section files(*entry, item.name() + ": accelerate", parts.faults);
-  for (const std::string& name : dof_names(parts.result.dimension())) {
+  for (const std::string& name : known_dofs(parts)) {
     if (files.find(name) == nullptr) continue;
     const std::string file = files.text(name, "a CSV file of times and accelerations");
     const auto found = find_data_file(file, parts.directory);
@@ -217,7 +217,7 @@ bool read_supports(Section& item, const std::vector<std::string>& places, CasePa
   bool found = dof_tables(item, "move", dimension_of, Single::ramp, parts, prescribe_by("move"));
   found = read_accelerations(item, parts, prescribe_by("accelerate")) || found;
   if (item.find("fix") == nullptr) return found;
-  const std::vector<std::string>& known = dof_names(parts.result.dimension());
+  const std::vector<std::string> known = known_dofs(parts);
   for (const std::string& name : item.words("fix", "a list of " + listed(known))) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const std::string guess = nearest(name, known);

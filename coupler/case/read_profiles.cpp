@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Values at places inside of the body: monitors with `at`, and profiles along lines.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -112,30 +113,48 @@ using PlaceOfNode = std::vector<double>;
 /// The places of a curve, each with those that come before and behind it.
 using Neighbours = std::map<PlaceOfNode, std::set<PlaceOfNode>>;
 
+/// The nodes of the sides of elements that can lie on a curve, one list a side: in space of the edges of faces.
+std::vector<std::vector<int>> lines_of(const fem::Mesh<2>& mesh, const std::string& on) {
+  std::vector<std::vector<int>> lines;
+  if (const auto boundary = mesh.boundaries.find(on); boundary != mesh.boundaries.end()) {
+    for (const fem::BoundarySide& side : boundary->second) lines.push_back(mesh.side_nodes(side));
+  } else {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      for (std::size_t side = 0; side < mesh.elements[e].type->sides.size(); ++side)
+        lines.push_back(mesh.side_nodes({static_cast<int>(e), static_cast<int>(side)}));
+  }
+  return lines;
+}
+std::vector<std::vector<int>> lines_of(const fem::Mesh<3>& mesh, const std::string&) {
+  std::vector<std::vector<int>> lines;
+  for (const fem::Element<3>& element : mesh.elements)
+    for (const auto& face : element.type->sides)
+      for (const auto& edge : face.type->sides) {
+        std::vector<int>& line = lines.emplace_back();
+        for (const int a : edge.nodes)
+          line.push_back(element.nodes[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(a)])]);
+      }
+  return lines;
+}
+
 /// By places: the copies of a node on both sides of an interface are one.
-Neighbours neighbours_on(const fem::Mesh<2>& mesh, const std::string& on) {
+template <int dim>
+Neighbours neighbours_on(const fem::Mesh<dim>& mesh, const std::string& on) {
   const auto place = [&](int node) {
     const auto& x = mesh.nodes[static_cast<std::size_t>(node)];
     return PlaceOfNode(x.begin(), x.end());
   };
   Neighbours beside;
   for (const int node : mesh.nodes_on(on)) beside[place(node)];
-  const auto add = [&](const fem::BoundarySide& side) {
+  for (const std::vector<int>& line : lines_of(mesh, on)) {
     std::vector<PlaceOfNode> way;
-    for (const int node : mesh.side_nodes(side)) way.push_back(place(node));
-    if (!std::ranges::all_of(way, [&](const PlaceOfNode& here) { return beside.contains(here); })) return;
+    for (const int node : line) way.push_back(place(node));
+    if (!std::ranges::all_of(way, [&](const PlaceOfNode& here) { return beside.contains(here); })) continue;
     std::rotate(way.begin() + 1, way.begin() + 2, way.end());  // both ends come before the middle node
     for (std::size_t k = 1; k < way.size(); ++k) {
       beside[way[k - 1]].insert(way[k]);
       beside[way[k]].insert(way[k - 1]);
     }
-  };
-  if (const auto boundary = mesh.boundaries.find(on); boundary != mesh.boundaries.end()) {
-    for (const fem::BoundarySide& side : boundary->second) add(side);
-  } else {
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      for (std::size_t side = 0; side < mesh.elements[e].type->sides.size(); ++side)
-        add({static_cast<int>(e), static_cast<int>(side)});
   }
   return beside;
 }
@@ -168,8 +187,10 @@ std::vector<PlaceOfNode> in_order(const Neighbours& beside) {
     if (done.contains(place)) continue;
     const PlaceOfNode& one = *others.begin();
     const PlaceOfNode& other = *others.rbegin();
-    const double turn =
-        (one[0] - place[0]) * (other[1] - place[1]) - (one[1] - place[1]) * (other[0] - place[0]);
+    // A closed curve turns to one hand in the plane; in space it goes to its lower neighbour first.
+    const double turn = place.size() > 2 ? 1.0
+                                         : (one[0] - place[0]) * (other[1] - place[1]) -
+                                               (one[1] - place[1]) * (other[0] - place[0]);
     done.insert(place);
     places.push_back(place);
     follow(turn > 0.0 ? one : other);
@@ -179,24 +200,30 @@ std::vector<PlaceOfNode> in_order(const Neighbours& beside) {
 }
 
 /// Whether a name stands for an area, as 'all' does: a set that holds all nodes of some element.
-bool is_area(const fem::Mesh<2>& mesh, const std::string& on) {
+template <int dim>
+bool holds_an_element(const fem::Mesh<dim>& mesh, const std::string& on) {
   const auto set = mesh.node_sets.find(on);
   if (set == mesh.node_sets.end()) return false;
   const std::set<int> nodes(set->second.begin(), set->second.end());
-  return std::ranges::any_of(mesh.elements, [&](const fem::Element<2>& element) {
+  return std::ranges::any_of(mesh.elements, [&](const fem::Element<dim>& element) {
     return std::ranges::all_of(element.nodes, [&](int node) { return nodes.contains(node); });
   });
 }
 
 /// Rows along several ways have no order, and a curve drawn through them would run to and fro.
-void check_branches(Section& section, const fem::Mesh<2>& mesh, const std::string& on) {
-  if (is_area(mesh, on)) return;
+template <int dim>
+void check_branches(Section& section, const fem::Mesh<dim>& mesh, const std::string& on) {
+  if (holds_an_element(mesh, on)) return;
   const Neighbours beside = neighbours_on(mesh, on);
   const auto branch = first_branch(beside);
   if (branch == beside.end()) return;
-  section.fault("on", fmt::format("on: '{}' branches at [{:.4g} m, {:.4g} m], and a profile goes one way; "
-                                  "give each branch a name in the mesh, or a line by 'from' and 'to'",
-                                  on, branch->first[0], branch->first[1]));
+  std::vector<std::string> at;
+  for (const double x : branch->first) at.push_back(fmt::format("{:.4g} m", x));
+  section.fault("on",
+                fmt::format("on: '{}' branches at [{}], and a profile goes one way; give {}, or a line by "
+                            "'from' and 'to'",
+                            on, fmt::join(at, ", "),
+                            dim == 2 ? "each branch a name in the mesh" : "an edge in place of a face"));
 }
 
 /// The nodes of a boundary: the settlement trough of a surface, a wall from below upwards, a lining around.
@@ -206,16 +233,8 @@ std::vector<std::vector<double>> places_on(Section& section, CaseParts& parts) {
   std::vector<std::vector<double>> places;
   parts.result.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
     if (!parts.has_mesh || !problem.mesh.has_nodes_on(on)) return;
-    if constexpr (dim == 2) {
-      check_branches(section, problem.mesh, on);
-      places = places_along(problem.mesh, on);
-    } else {
-      for (const int node : problem.mesh.nodes_on(on)) {
-        const auto& place = problem.mesh.nodes[static_cast<std::size_t>(node)];
-        places.emplace_back(place.begin(), place.end());
-      }
-      std::ranges::sort(places);
-    }
+    check_branches<dim>(section, problem.mesh, on);
+    places = places_along<dim>(problem.mesh, on);
   });
   return places;
 }
@@ -267,9 +286,12 @@ PlaceValue value_of(Section& section, const std::string& key, const std::string&
 
 }  // namespace
 
-std::vector<std::vector<double>> places_along(const fem::Mesh<2>& mesh, const std::string& on) {
-  return in_order(neighbours_on(mesh, on));
+template <int dim>
+std::vector<std::vector<double>> places_along(const fem::Mesh<dim>& mesh, const std::string& on) {
+  return in_order(neighbours_on<dim>(mesh, on));
 }
+template std::vector<std::vector<double>> places_along<2>(const fem::Mesh<2>&, const std::string&);
+template std::vector<std::vector<double>> places_along<3>(const fem::Mesh<3>&, const std::string&);
 
 void read_place_monitor(Section& section, Monitor& monitor, CaseParts& parts) {
   monitor.kind = Monitor::Kind::place;

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 #include "common/elementary_functions.hpp"
 
@@ -54,6 +55,24 @@ Eigen::Vector3d vector_of(const Eigen::Matrix3d& rotation) {
   const double sine = direction.norm();
   if (sine == 0.0) return Eigen::Vector3d::Zero();
   return arc_tangent(sine, 0.5 * (rotation.trace() - 1.0)) / sine * direction;
+}
+
+// By quaternions, which lose no digits of small angles.
+Eigen::Vector3d composed(const Eigen::Vector3d& after, const Eigen::Vector3d& before) {
+  const Eigen::Vector3d sum = after + before;
+  if (after.cross(before).isZero(0.0)) return sum;  // about one axis
+  const auto quaternion = [](const Eigen::Vector3d& vector) {
+    const double half = 0.5 * vector.norm();
+    return std::pair{cosine(half), Eigen::Vector3d(0.5 * Coefficients(half).first * vector)};
+  };
+  const auto [a, x] = quaternion(after);
+  const auto [b, y] = quaternion(before);
+  const Eigen::Vector3d part = a * y + b * x + x.cross(y);
+  const double sine = part.norm();
+  if (sine == 0.0) return sum;
+  const Eigen::Vector3d axis = part / sine;
+  const double angle = 2.0 * arc_tangent(sine, a * b - x.dot(y));
+  return (angle + 2.0 * M_PI * std::round((sum.dot(axis) - angle) / (2.0 * M_PI))) * axis;
 }
 
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector) {

@@ -13,6 +13,9 @@ Eigen::Vector3d axial(const Eigen::Matrix3d& m);
 Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector);
 /// The vector of a rotation by less than pi, rad.
 Eigen::Vector3d vector_of(const Eigen::Matrix3d& rotation);
+/// The vector of exp[after]x exp[before]x, of the turns of both one after the other: of those that differ by whole turns the
+/// nearest to the sum.
+Eigen::Vector3d composed(const Eigen::Vector3d& after, const Eigen::Vector3d& before);
 /// J with exp[-v] d exp[v] = [J dv]x, and its inverse.
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector);
 Eigen::Matrix3d inverse_right_jacobian(const Eigen::Vector3d& vector);

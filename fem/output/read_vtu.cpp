@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 #include <pugixml.hpp>
+#include <sstream>
 #include <type_traits>
 
 #include "common/error.hpp"
@@ -19,14 +20,19 @@
 namespace polargrain::fem {
 namespace {
 
-/// The elements of the project by what they are in VTK.
+/// The elements of the project by what they are in VTK. @param named types of the file, which come first; others do not count
 template <int dim>
-std::map<int, const ElementType<dim>*> types_by_vtk() {
+std::map<int, const ElementType<dim>*> types_by_vtk(const std::string& named = "") {
   std::map<int, const ElementType<dim>*> types;
-  for (const std::string& name : element_names<dim>()) {
+  const std::vector<std::string> known = element_names<dim>();
+  const auto add = [&](const std::string& name) {
     const ElementType<dim>& type = element_type<dim>(name);
     types.try_emplace(type.vtk_cell_type, &type);
-  }
+  };
+  std::istringstream words(named);
+  for (std::string name; words >> name;)
+    if (std::ranges::find(known, name) != known.end()) add(name);
+  for (const std::string& name : known) add(name);
   return types;
 }
 
@@ -100,7 +106,8 @@ class VtuReader {
     const auto ends = array<std::int64_t>("Cells", "offsets");
     const auto kinds = array<std::uint8_t>("Cells", "types");
     if (kinds.size() != ends.size()) fail("its cells do not fit together");
-    const std::map<int, const ElementType<dim>*> types = types_by_vtk<dim>();
+    const std::map<int, const ElementType<dim>*> types =
+        types_by_vtk<dim>(piece_.child("Cells").attribute("elements").value());
     std::size_t begin = 0;
     for (std::size_t e = 0; e < kinds.size(); ++e) {
       const auto type = types.find(kinds[e]);

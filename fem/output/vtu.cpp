@@ -2,10 +2,12 @@
 #include "fem/output/vtu.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zlib.h>
 
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <span>
 
 #include "common/error.hpp"
@@ -98,6 +100,7 @@ struct Cells {
   std::vector<std::int64_t> places;
   std::vector<std::int64_t> ends;
   std::vector<std::uint8_t> types;
+  std::set<std::string> elements;  ///< names of their types, which VTK does not tell apart: H8 and H8R
 };
 
 template <int dim>
@@ -107,6 +110,7 @@ Cells cells_of(const Mesh<dim>& mesh) {
     cells.places.insert(cells.places.end(), element.nodes.begin(), element.nodes.end());
     cells.ends.push_back(static_cast<std::int64_t>(cells.places.size()));
     cells.types.push_back(static_cast<std::uint8_t>(element.type->vtk_cell_type));
+    cells.elements.insert(element.type->name);
   }
   return cells;
 }
@@ -117,16 +121,19 @@ void write_grid(const std::filesystem::path& file, const std::vector<Eigen::Vect
   std::string of_whole;
   for (const Field& field : whole) of_whole += arrays.field(field, " NumberOfTuples=\"1\"");
   if (!whole.empty()) of_whole = "<FieldData>\n" + of_whole + "</FieldData>\n";
+  // An attribute that VTK passes over.
+  const std::string elements =
+      cells.elements.empty() ? "" : fmt::format(" elements=\"{}\"", fmt::join(cells.elements, " "));
   write_file(
       file, fmt::format("<?xml version=\"1.0\"?>\n"
                         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
                         "header_type=\"UInt64\"{}>\n<UnstructuredGrid>\n{}"
                         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
                         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
-                        "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n"
+                        "<Points>\n{}</Points>\n<Cells{}>\n{}{}{}</Cells>\n"
                         "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
                         attributes, of_whole, places.size(), cells.ends.size(), arrays.fields(fields.points),
-                        arrays.fields(fields.cells), arrays.positions(places),
+                        arrays.fields(fields.cells), arrays.positions(places), elements,
                         arrays.array("connectivity", 1, cells.places), arrays.array("offsets", 1, cells.ends),
                         arrays.array("types", 1, cells.types)));
 }

@@ -404,7 +404,8 @@ Messages faults(const Problem<dim>& problem) {
   }
   check_contributions(problem, 0, messages);
   if (has_stages && Stabilisation<dim>::of(problem.mesh, problem.continuum, problem.deformation))
-    messages.push_back("stages of construction do not take elements with one integration point yet");
+    messages.push_back(
+        "stages of construction do not take elements with one integration point yet; take those with more, such as Q8R, H8 or H20R");
   for (std::string& message : distorted_elements(problem.mesh)) messages.push_back(std::move(message));
   for (const std::string& motion : free_rigid_motions(problem, 0)) {
     messages.push_back(

@@ -398,7 +398,10 @@ Newton<dim>::Iterate Newton<dim>::start_of(const StepGoal& goal) const {
                   {},
                   {}};
   constraints.apply(iterate.time, iterate.displacement, iterate.released);
-  iterate.displacement -= state.displacement;
+  if (turns_rotations())
+    turn_given(goal, iterate.displacement);
+  else
+    iterate.displacement -= state.displacement;
   if (goal.releases_displacements && released_ < 1.0)
     iterate.displacement *= (goal.released - released_) / (1.0 - released_);
   return iterate;
@@ -580,7 +583,10 @@ void Newton<dim>::commit(const Iterate& iterate, Balance balance, StepReport& re
     state.contributed = contributed_.internal;
   }
   state.responses = trial_;
-  state.displacement += iterate.displacement;
+  if (turns_rotations())
+    add_step(iterate);
+  else
+    state.displacement += iterate.displacement;
   state.last_increment = iterate.displacement;
   state.time = iterate.time;
   is_balanced_at_time_ = false;

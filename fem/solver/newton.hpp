@@ -199,6 +199,15 @@ class Newton {
                                 const Eigen::VectorXd& right_side, Correction& change, StepReport& report);
   [[nodiscard]] double allowed_share(const Eigen::VectorXd& from, const Eigen::VectorXd& change) const;
   [[nodiscard]] Attempt limit_correction(Iterate& iterate, Correction& change, StepReport& report) const;
+  /// Large deformation in space, where nodal values of micro-rotations are vectors of rotations and a step adds to them as a
+  /// further turn (newton_turn.cpp).
+  [[nodiscard]] bool turns_rotations() const {
+    return dim == 3 && problem.deformation == Deformation::large && problem.continuum == Continuum::cosserat;
+  }
+  /// Of an increment from given values less those at the start: turns at supports that give rotations.
+  void turn_given(const StepGoal& goal, Eigen::VectorXd& increment) const;
+  /// Adds a step to the nodal values.
+  void add_step(const Iterate& iterate);
   [[nodiscard]] Attempt limit_predictor(const StepGoal& goal, Iterate& iterate, Correction& change,
                                         StepReport& report) const;
   /// The committed step before, as far as this goal, with the given entries of the goal; empty when there was no such step or it

@@ -56,6 +56,56 @@ void Newton<dim>::turn_predictor(const Iterate& iterate, Correction& change) con
   constraints.add_free((volumes.array() > 0.0).select(sums.cwiseQuotient(volumes), 0.0), change.displacement);
 }
 
+// A support that gives all three rotations of a node gives their vector, and the step is the turn from one vector to the next. One
+// that gives some of them gives turns of steps about these axes.
+template <int dim>
+void Newton<dim>::turn_given(const StepGoal& goal, Eigen::VectorXd& increment) const {
+  if constexpr (dim == 3) {
+    const Eigen::VectorXd given = increment;
+    const Eigen::VectorXd& now = state.displacement;
+    increment -= now;
+    Eigen::VectorXd before = now;
+    constraints.apply(state.time, before, goal.releases_displacements ? released_ : goal.released);
+    for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
+      const std::size_t first = entry_of<3>(node) + 3;
+      const auto place = static_cast<Eigen::Index>(first);
+      int held = 0;
+      for (std::size_t i = 0; i < 3; ++i) held += constraints.is_free(first + i) ? 0 : 1;
+      if (held == 3) {
+        increment.segment<3>(place) = composed(given.segment<3>(place), -now.segment<3>(place));
+        continue;
+      }
+      for (Eigen::Index i = 0; i < 3; ++i)
+        if (!constraints.is_free(first + static_cast<std::size_t>(i)))
+          increment(place + i) = given(place + i) - before(place + i);
+    }
+  }
+}
+
+template <int dim>
+void Newton<dim>::add_step(const Iterate& iterate) {
+  if constexpr (dim == 3) {
+    constexpr double kRounding = 1e-12;
+    const Eigen::VectorXd before = state.displacement;
+    const Eigen::VectorXd& step = iterate.displacement;
+    Eigen::VectorXd& end = state.displacement;
+    end += step;
+    Eigen::VectorXd given = end;
+    constraints.apply(iterate.time, given, iterate.released);
+    for (std::size_t node = 0; node < problem.mesh.nodes.size(); ++node) {
+      const auto place = static_cast<Eigen::Index>(entry_of<3>(node) + 3);
+      const Eigen::Vector3d turned = composed(step.segment<3>(place), before.segment<3>(place));
+      const Eigen::Vector3d wanted = given.segment<3>(place);
+      const bool is_as_given = (turned - wanted).norm() <= kRounding * (1.0 + wanted.norm());
+      end.segment<3>(place) = is_as_given ? wanted : turned;
+    }
+  }
+}
+
+template void Newton<2>::turn_given(const StepGoal&, Eigen::VectorXd&) const;
+template void Newton<3>::turn_given(const StepGoal&, Eigen::VectorXd&) const;
+template void Newton<2>::add_step(const Iterate&);
+template void Newton<3>::add_step(const Iterate&);
 template void Newton<2>::turn_predictor(const Iterate&, Correction&) const;
 template void Newton<3>::turn_predictor(const Iterate&, Correction&) const;
 

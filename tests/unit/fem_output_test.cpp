@@ -95,8 +95,10 @@ TEST_P(Output, is_read_back_by_vtk) {
   const FieldFile<2> again = read_vtu(file);
   EXPECT_EQ(again.mesh.nodes, solver.problem().mesh.nodes);
   ASSERT_EQ(again.mesh.elements.size(), solver.problem().mesh.elements.size());
-  for (std::size_t e = 0; e < again.mesh.elements.size(); ++e)
+  for (std::size_t e = 0; e < again.mesh.elements.size(); ++e) {
+    EXPECT_EQ(again.mesh.elements[e].type, solver.problem().mesh.elements[e].type);
     EXPECT_EQ(again.mesh.elements[e].nodes, solver.problem().mesh.elements[e].nodes);
+  }
   ASSERT_NE(find_field(again.fields.cells, "stress"), nullptr);
   for (const Field& field : collect_fields(solver).cells)
     EXPECT_EQ(find_field(again.fields.cells, field.name)->values, field.values) << field.name;

@@ -2,9 +2,12 @@
 // Values at places, along lines, and the start from another run as a case file has them: faults with line and remedy.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/prefixed_archive.hpp"
 #include "coupler/case/parts.hpp"
 #include "coupler/checkpoint/checkpoint.hpp"
+#include "fem/mesh/box.hpp"
 #include "fem/mesh/rectangle.hpp"
 #include "fem/solver/end_of_run.hpp"
 #include "tests/support/edited_case.hpp"
@@ -67,6 +70,34 @@ TEST(PlacesAlong, AProfileFollowsItsCurve) {
   EXPECT_EQ(places_along(mesh, "left").size(), 9U) << "from below upwards";
   EXPECT_EQ(places_along(mesh, "left").front(), (std::vector<double>{0, 0}));
   EXPECT_EQ(places_along(mesh, "all").size(), mesh.nodes.size()) << "no curve: by coordinates";
+}
+
+// Around the top of a box: 4 m, back to where it begins; along one edge from end to end.
+TEST(PlacesAlong, AProfileFollowsItsCurveInSpace) {
+  fem::Mesh<3> mesh = fem::box({{1.0, 1.0, 1.0}, {2, 2, 1}}, "H20R");
+  std::vector<int>& rim = mesh.node_sets["rim"];
+  for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node) {
+    const Eigen::Vector3d& x = mesh.nodes[static_cast<std::size_t>(node)];
+    const bool outside = x(0) == 0.0 || x(0) == 1.0 || x(1) == 0.0 || x(1) == 1.0;
+    if (x(2) == 1.0 && outside) rim.push_back(node);
+  }
+  const auto length_of = [](const std::vector<std::vector<double>>& places) {
+    double length = 0.0;
+    for (std::size_t k = 1; k < places.size(); ++k) {
+      double square = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) square += std::pow(places[k][i] - places[k - 1][i], 2);
+      length += std::sqrt(square);
+    }
+    return length;
+  };
+  const auto around = places_along(mesh, "rim");
+  EXPECT_EQ(around.size(), 17U);
+  EXPECT_EQ(around.front(), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(around.back(), around.front());
+  EXPECT_NEAR(length_of(around), 4.0, 1e-12);
+  const auto edge = places_along(mesh, "top_right");
+  EXPECT_EQ(edge.size(), 5U);
+  EXPECT_NEAR(length_of(edge), 1.0, 1e-12);
 }
 
 // A curve with a side of its own in the middle: rows by coordinates would run to and fro between the ways.

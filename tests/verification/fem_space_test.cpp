@@ -353,4 +353,55 @@ TEST(SpaceElements, RollUpIsOfSecondOrderAndTheSameInAnyFrame) {
   EXPECT_LT((elsewhere - straight).norm(), 1e-8);
 }
 
+/// A body that turns as it is, first about one axis and then about others, to more than half a turn. @returns largest stress over E
+double turned_as_it_is(bool gives_rotations, double& from_vector) {
+  constexpr int kSteps = 24;
+  const auto vector_at = [](double t) -> Place {
+    const Place first(0.9, 0.0, 0.0), second(0.8, 0.7, 0.0), last(1.6, 2.0, 2.4);
+    return t <= 1.0   ? Place(t * first)
+           : t <= 2.0 ? first + (t - 1.0) * (second - first)
+                      : second + (t - 2.0) * (last - second);
+  };
+  Problem<3> problem;
+  problem.deformation = Deformation::large;
+  problem.mesh = box({{1, 0.8, 2}, {1, 1, 1}}, "H8");
+  problem.materials["all"] = elastic(parameters(1.0, 0.25, 0.5, 0.3));
+  const std::vector<Place> nodes = problem.mesh.nodes;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const std::string name = "node" + std::to_string(node);
+    problem.mesh.node_sets[name] = {static_cast<int>(node)};
+    for (const Dof dof : kDofs) {
+      if (is_rotation(dof) && !gives_rotations) continue;
+      std::vector<TimeTable::Point> points;
+      for (int k = 0; k <= kSteps; ++k) {
+        const double t = 3.0 * k / kSteps;
+        const Place moved = rotation_by(vector_at(t)) * nodes[node] - nodes[node];
+        points.push_back({t, (is_rotation(dof) ? vector_at(t) : moved)(axis_of(dof))});
+      }
+      problem.prescribed.push_back({name, dof, TimeTable(points), {}});
+    }
+  }
+  Solver<3> solver(std::move(problem), exact());
+  EXPECT_TRUE(solver.equilibrate().converged);
+  for (int k = 1; k <= kSteps; ++k) EXPECT_TRUE(solver.advance(3.0 * k / kSteps).converged);
+  double stress = 0.0;
+  for (const Response<3>& answer : solver.state().responses) stress = std::max(stress, answer.stress.norm());
+  from_vector = 0.0;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const Place turned =
+        solver.state().displacement.segment<3>(entry_of<3>(static_cast<Eigen::Index>(node)) + 3);
+    from_vector = std::max(from_vector, (turned - vector_at(3.0)).norm());
+  }
+  return stress;
+}
+
+// Micro-rotations are vectors of rotations, as what is given for them is; sums of steps are not.
+TEST(SpaceElements, RotationsAboutChangingAxesAreVectors) {
+  for (const bool gives_rotations : {true, false}) {
+    double from_vector = 0.0;
+    EXPECT_LT(turned_as_it_is(gives_rotations, from_vector), 1e-12) << gives_rotations;
+    EXPECT_LT(from_vector, 1e-11) << gives_rotations;
+  }
+}
+
 }  // namespace
