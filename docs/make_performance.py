@@ -129,8 +129,8 @@ Nanoseconds a grain and step, over a bare loop of the same physics:""", "step_be
     ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing. "+tangent" is the
 additional time of the condensed tangent. "off" is the deviator against a slow run. A state has 385 bytes a sphere.""", "sphere_bench.txt", [],
      ["contacts", "hooke/radii, history", "and torsion"]),
-    ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm. Both loops make the same packings, statistically: ten of 300 spheres differ by
--0.007 +- 0.013 in void ratio with friction 0.5, by 0.004 +- 0.006 without.""", "pack_bench.csv",
+    ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm. Both loops make the same void ratio: ten packings of 300 spheres differ by
+-0.007 +- 0.013 with friction 0.5, 0.004 +- 0.006 without.""", "pack_bench.csv",
      ["packing", "grains", "seconds", "DEM steps"], ["discs, void"]),
     ("A coupled run", """`./bootstrap demo` (200 cells, 23 steps, 19,244 evaluations) takes 16 s of processor time on that EPYC, 36 s with `condensed`.
 
@@ -144,7 +144,7 @@ of a step in brackets. `cases/footing_cells` (560 points; full run: 11,243 evalu
      "adaptive_biaxial.csv", ["`tolerance`", "error of the curve", "times fewer DEM steps", "audits: mean error / bound"], []),
     ("Speed against error", """`cases/biaxial` on 2 x 4 elements (32 points, 400 discs, 23 steps to 2.3 %). Errors are the largest difference from the reference over its range. Packings
 are compared with the mean of the three largest packings ([all rows](data/performance/bench_quick.csv)).""", "bench_quick.csv",
-     ["what", "setting", "DEM steps", "error of stress_ratio", "error of the peak"], ["cell size", "mean", "standard deviation", "equilibrium", "step size"]),
+     ["what", "setting", "DEM steps", "error of stress_ratio", "error of the peak"], ["cell size", "mean", "standard deviation", "equilibrium", "step size", "adaptivity"]),
     ("", speed_words(), "", [], []),
     ("Finite elements", """Elastoplastic block between rough plates in full plastic flow, seconds a Newton iteration. The solution grows like n^1.23.""", "fem_bench.csv",
      ["unknowns", "assembly, s", "factorisation and solution, s", "peak, MiB"], ["4,323"]),
