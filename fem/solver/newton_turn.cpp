@@ -75,6 +75,7 @@ void Newton<dim>::turn_given(const StepGoal& goal, Eigen::VectorXd& increment) c
         increment.segment<3>(place) = composed(given.segment<3>(place), -now.segment<3>(place));
         continue;
       }
+      if (now.segment<3>(place).isZero(0.0)) continue;  // also what is given at the start of a run
       for (Eigen::Index i = 0; i < 3; ++i)
         if (!constraints.is_free(first + static_cast<std::size_t>(i)))
           increment(place + i) = given(place + i) - before(place + i);
