@@ -126,7 +126,8 @@ function showMesh(figure, content) {
       return [offset + size * (x - left), 10 + size * (high - y)];
     };
     // Far faces first, so that near ones hide them.
-    const order = content.outlines.map((nodes, e) => e);
+    const hidden = new Set(now.hidden);
+    const order = content.outlines.map((nodes, e) => e).filter((e) => !hidden.has(e));
     if (space) {
       const far = content.outlines.map((nodes) =>
         nodes.reduce((sum, node) => sum + seen(node, now.moved, times)[2], 0) / nodes.length);

@@ -124,8 +124,9 @@ std::string mesh_picture(const MeshPicture& picture) {
     std::string values;
     for (const std::vector<double>& of_field : frame.values)
       values += (values.empty() ? "" : ",") + numbers(of_field, "{:.4g}");
-    frames += fmt::format("{}{{\"name\":{},\"moved\":{},\"values\":[{}]}}", frames.empty() ? "" : ",\n",
-                          in_script(frame.name), places(frame.moved), values);
+    frames += fmt::format("{}{{\"name\":{},\"moved\":{},\"values\":[{}],\"hidden\":{}}}",
+                          frames.empty() ? "" : ",\n", in_script(frame.name), places(frame.moved), values,
+                          Json(frame.hidden).dump());
   }
   return fmt::format(
       "<figure class='mesh'><canvas role='img' aria-label='{}'></canvas>\n"

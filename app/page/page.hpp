@@ -63,6 +63,7 @@ struct MeshPicture {
     std::string name;                         ///< "step 5, time 0.1"
     std::vector<double> moved;                ///< displacement by node, its components one after the other, m
     std::vector<std::vector<double>> values;  ///< by field, by outline
+    std::vector<int> hidden;                  ///< outlines that are not there
   };
   std::string title;
   int dimension = 2;          ///< components of a place; in space the picture can be turned

@@ -57,6 +57,7 @@ std::vector<int> around(const std::vector<int>& nodes, int corners) {
 /// A thing that is drawn of a mesh: an element, in space a face that belongs to one element alone.
 struct Outline {
   int element;
+  int beyond;  ///< the element on the other side of a face, or -1
   std::vector<int> corners;
   std::vector<int> nodes;  ///< around it
 };
@@ -66,11 +67,12 @@ std::vector<Outline> outlines_of(const fem::Mesh<2>& mesh) {
   for (const fem::Element<2>& element : mesh.elements) {
     const std::vector<int> corners(element.nodes.begin(), element.nodes.begin() + element.type->corners);
     outlines.push_back(
-        {static_cast<int>(outlines.size()), corners, around(element.nodes, element.type->corners)});
+        {static_cast<int>(outlines.size()), -1, corners, around(element.nodes, element.type->corners)});
   }
   return outlines;
 }
 
+/// Faces between two elements stand there twice, once for each.
 std::vector<Outline> outlines_of(const fem::Mesh<3>& mesh) {
   std::map<std::vector<int>, std::vector<Outline>> faces;
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
@@ -82,13 +84,44 @@ std::vector<Outline> outlines_of(const fem::Mesh<3>& mesh) {
       const std::vector<int> corners(nodes.begin(), nodes.begin() + count);
       std::vector<int> key = corners;
       std::ranges::sort(key);
-      faces[key].push_back({e, corners, around(nodes, count)});
+      faces[key].push_back({e, -1, corners, around(nodes, count)});
     }
   }
-  std::vector<Outline> outer;
-  for (auto& [key, of] : faces)
-    if (of.size() == 1) outer.push_back(std::move(of.front()));
-  return outer;
+  std::vector<Outline> outlines;
+  for (auto& [key, of] : faces) {
+    if (of.size() == 2) of[0].beyond = of[1].element, of[1].beyond = of[0].element;
+    for (Outline& outline : of) outlines.push_back(std::move(outline));
+  }
+  return outlines;
+}
+
+/// By outline, whether it is seen: the element is there, and no other hides it.
+std::vector<char> seen(const fem::Fields& fields, const std::vector<Outline>& outlines) {
+  const fem::Field* const there = fem::find_field(fields.cells, "is_there");  // of stages
+  const auto is_there = [&](int element) {
+    if (element < 0) return false;
+    const auto number = static_cast<std::size_t>(element);
+    return there == nullptr || number >= there->values.size() || there->values[number] > 0.0;
+  };
+  std::vector<char> made;
+  for (const Outline& outline : outlines)
+    made.push_back(is_there(outline.element) && !is_there(outline.beyond) ? 1 : 0);
+  return made;
+}
+
+/// Leaves out those that no frame shows. @returns the numbers of what is hidden in each frame
+std::vector<std::vector<int>> keep_seen(const std::vector<std::vector<char>>& by_frame,
+                                        std::vector<Outline>& outlines) {
+  std::vector<std::vector<int>> hidden(by_frame.size());
+  std::vector<Outline> kept;
+  for (std::size_t k = 0; k < outlines.size(); ++k) {
+    if (std::ranges::none_of(by_frame, [&](const auto& seen) { return seen[k] != 0; })) continue;
+    for (std::size_t frame = 0; frame < by_frame.size(); ++frame)
+      if (by_frame[frame][k] == 0) hidden[frame].push_back(static_cast<int>(kept.size()));
+    kept.push_back(std::move(outlines[k]));
+  }
+  outlines = std::move(kept);
+  return hidden;
 }
 
 /// Norm of the components of an entity; of a single one the value with its sign.
@@ -160,7 +193,14 @@ MeshPicture picture_for(const RunResult& result, const std::vector<std::string>&
   picture.title = result.name;
   picture.dimension = dim;
   const fem::FieldFile<dim> last = fem::read_vtu<dim>(result.fields.back().second);
-  const std::vector<Outline> outlines = outlines_of(last.mesh);
+  std::vector<Outline> outlines = outlines_of(last.mesh);
+  const bool has_stages = fem::find_field(last.fields.cells, "is_there") != nullptr;
+  std::vector<std::vector<char>> seen_by_file;
+  for (const auto& [step, path] : result.fields) {
+    seen_by_file.push_back(seen(has_stages ? fem::read_vtu<dim>(path).fields : last.fields, outlines));
+    if (!has_stages) break;
+  }
+  const std::vector<std::vector<int>> hidden = keep_seen(seen_by_file, outlines);
   picture.all_elements = last.mesh.elements.size();
   std::vector<std::string> names;
   for (const std::string& name : fields.empty() ? usual_fields(dim) : fields) {
@@ -201,6 +241,7 @@ MeshPicture picture_for(const RunResult& result, const std::vector<std::string>&
       frame.values.back().resize(picture.outlines.size(),
                                  std::nan(""));  // a field that this file does not have
     }
+    frame.hidden = hidden[has_stages ? k : 0];
     picture.frames.push_back(std::move(frame));
   }
   return picture;

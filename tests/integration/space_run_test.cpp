@@ -73,6 +73,29 @@ TEST_F(SpaceRun, ALawCarriesItsTriaxialStrength) {
   EXPECT_NE(content(folder() / "law" / "summary.json").find("\"unit\": \"N\""), std::string::npos);
 }
 
+// Two cubes, one of which is dug away: the face between them is seen behind that alone, and no face of the other any more.
+TEST_F(SpaceRun, TheReportShowsThePit) {
+  write(folder() / "case.yaml",
+        "title: pit\n"
+        "mesh: {box: {size: [2 m, 1 m, 1 m], elements: [2, 1, 1], patch: [1 m, 1 m, 1 m]}, element: H8}\n"
+        "materials:\n  s: {model: elastic, E: 50 MPa, nu: 0.3, Gc: 10 MPa, lc: 0.4 m}\n"
+        "regions: {patch: s, rest: s}\n"
+        "boundary: [{on: bottom, fix: [u1, u2, u3]}]\n"
+        "steps: {stages: [{remove: patch, count: 1}]}\n"
+        "body: [{unit_weight: 18 kN/m3}]\n");
+  const Outcome run =
+      run_in(folder(), kProgram + " run case.yaml -o pit --quiet && " + kProgram + " report pit");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string page = content(folder() / "pit/report.html");
+  std::vector<std::ptrdiff_t> hidden;
+  for (std::size_t at = page.find("\"hidden\":["); at != std::string::npos;
+       at = page.find("\"hidden\":[", at + 1)) {
+    const std::string numbers = page.substr(at, page.find(']', at) - at);
+    hidden.push_back(numbers.ends_with('[') ? 0 : 1 + std::ranges::count(numbers, ','));
+  }
+  EXPECT_EQ(hidden, (std::vector<std::ptrdiff_t>{1, 5}));
+}
+
 /// What `check` says of a case with something replaced.
 std::string faults_of(const std::filesystem::path& folder, std::string text, const std::string& from,
                       const std::string& to) {
