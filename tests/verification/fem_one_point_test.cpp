@@ -224,6 +224,13 @@ class SpaceStepOf {
   std::vector<Response<3>> answers_;
 };
 
+/// Of an elastic body without strain.
+std::vector<Response<3>> elastic_answers(const Discretisation<3>& discretisation) {
+  Response<3> answer;
+  answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
+  return std::vector<Response<3>>(discretisation.points(), answer);
+}
+
 }  // namespace
 
 // Energy of squares of nodal places: a turn by any angle adds none, and turns the forces.
@@ -234,11 +241,8 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
     mesh.nodes[node] += 0.05 * Eigen::Vector3d(std::sin(2.1 * k), std::cos(1.3 * k), std::sin(0.7 * k));
   }
   const Discretisation<3> discretisation(mesh, Continuum::cosserat);
-  std::vector<Response<3>> answers(discretisation.points());
-  for (Response<3>& answer : answers)
-    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
   const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::large);
-  springs->learn(discretisation, answers);
+  springs->learn(discretisation, elastic_answers(discretisation));
   const auto forces_of = [&](const Eigen::VectorXd& values) {
     NodalForces forces;
     const Eigen::VectorXd start = Eigen::VectorXd::Zero(values.size());
@@ -267,11 +271,8 @@ TEST(OnePoint, SpringsTurnWithTheBody) {
 TEST(OnePoint, SpringsOfMicroRotationsTurnWithTheBody) {
   const Mesh<3> mesh = box({{0.7, 0.9, 1.1}, {2, 2, 2}}, "H8R");
   const Discretisation<3> discretisation(mesh, Continuum::cosserat);
-  std::vector<Response<3>> answers(discretisation.points());
-  for (Response<3>& answer : answers)
-    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
   const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::large);
-  springs->learn(discretisation, answers);
+  springs->learn(discretisation, elastic_answers(discretisation));
   Eigen::VectorXd values = Eigen::VectorXd::Zero(discretisation.nodal_size());
   const auto forces_at = [&](const Eigen::VectorXd& end) {
     NodalForces forces;
@@ -318,9 +319,7 @@ TEST(OnePoint, SpringsOfMicroRotationsTurnWithTheBody) {
 TEST(OnePoint, RoundingSoftensNoSprings) {
   const Mesh<3> mesh = box({{0.7, 0.9, 1.1}, {2, 2, 2}}, "H8R");
   const Discretisation<3> discretisation(mesh, Continuum::cosserat);
-  std::vector<Response<3>> answers(discretisation.points());
-  for (Response<3>& answer : answers)
-    answer.tangent = elastic_stiffness(one_point_parameters<3>(2.5, 0.25, 0.5, 0.3));
+  const std::vector<Response<3>> answers = elastic_answers(discretisation);
   const auto springs = Stabilisation<3>::of(mesh, Continuum::cosserat, Deformation::small);
   springs->learn(discretisation, answers);
   const auto forces_of = [&](double alike) {
