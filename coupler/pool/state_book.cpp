@@ -7,7 +7,20 @@ namespace polargrain::coupler {
 
 void StateBook::Pages::remove(const ContentName& name, const State* place) {
   const auto found = entries.find(name);
-  if (found == entries.end() || found->second.place != place) return;
+  if (found == entries.end()) return;
+  Entry& entry = found->second;
+  if (entry.without.place == place) {
+    entry.without = {};
+    const std::optional<Origin> done =
+        std::exchange(entry.origin, std::nullopt);  // ends behind the last use of the entry
+    return;
+  }
+  if (entry.given.place != place) return;
+  if (!entry.without.state.expired()) {
+    // The bytes have gone, and somebody may still ask for them.
+    entry.given = std::exchange(entry.without, {});
+    return;
+  }
   // The entry may hold the last pointer to another state, whose entry then goes too: that must not
   // happen while the table is at work on this one.
   const auto removed = entries.extract(found);
@@ -27,7 +40,7 @@ StatePointer StateBook::watched(const StatePointer& state) const {
 
 StatePointer StateBook::enter(const StatePointer& state, std::uint64_t worker, const Origin& origin) {
   Entry& entry = pages_->entries[state->name()];
-  if (StatePointer known = entry.state.lock()) {
+  if (StatePointer known = entry.given.state.lock()) {
     if (state->is_here()) return known->is_here() ? known : arrived(state, worker);
     // Made twice: one worker that keeps it is enough, and no worker need keep it when it is here.
     if (known->is_here()) {
@@ -39,8 +52,7 @@ StatePointer StateBook::enter(const StatePointer& state, std::uint64_t worker, c
     return known;
   }
   const StatePointer pointer = watched(state);
-  entry.state = pointer;
-  entry.place = pointer.get();
+  entry.given = {pointer, pointer.get()};
   entry.home = worker;
   if (!state->is_here()) entry.origin = origin;
   return pointer;
@@ -49,17 +61,16 @@ StatePointer StateBook::enter(const StatePointer& state, std::uint64_t worker, c
 StatePointer StateBook::arrived(const StatePointer& state, std::uint64_t worker) {
   const StatePointer pointer = watched(state);
   Entry& entry = pages_->entries[state->name()];
-  entry.state = pointer;
-  entry.place = pointer.get();
+  const StatePointer before = entry.given.state.lock();
+  if (before && !before->is_here()) entry.without = entry.given;
+  entry.given = {pointer, pointer.get()};
   if (entry.home != worker) pages_->release(state->name(), std::exchange(entry.home, worker));
-  const std::optional<Origin> done = std::move(entry.origin);  // ends behind the last use of the entry
-  entry.origin.reset();
   return pointer;
 }
 
 StatePointer StateBook::find_here(const ContentName& name) const {
   const auto found = pages_->entries.find(name);
-  StatePointer state = found == pages_->entries.end() ? nullptr : found->second.state.lock();
+  StatePointer state = found == pages_->entries.end() ? nullptr : found->second.given.state.lock();
   return state && state->is_here() ? state : nullptr;
 }
 

@@ -46,11 +46,16 @@ class StateBook {
   void forget_worker(std::uint64_t worker);
 
  private:
-  struct Entry {
+  /// A state, and its place, to know it by when it goes.
+  struct Watched {
     std::weak_ptr<const State> state;
-    const State* place = nullptr;  ///< of that state, to know it by when it goes
+    const State* place = nullptr;
+  };
+  struct Entry {
+    Watched given;    ///< the state that is handed out
+    Watched without;  ///< the same without its bytes: somebody has held it since before they came
     std::uint64_t home = 0;
-    std::optional<Origin> origin;  ///< of a state on trial
+    std::optional<Origin> origin;  ///< of a state on trial, or of `without`
   };
   struct Pages {
     std::unordered_map<ContentName, Entry, ContentNameHash> entries;

@@ -116,6 +116,17 @@ TEST_F(PoolTest, ANewStateStaysWithItsWorkerUntilItIsCollected) {
   EXPECT_EQ(pool.counts().states_fetched, 20);
 }
 
+TEST_F(PoolTest, AStateMayBeAskedForAgainWhenItsBytesHaveGone) {
+  Pool pool(options(2));
+  pool.define(testing::fake_definition(""));
+  const std::vector<CellReply> replies = pool.evaluate(random_requests(20));
+  for (int time = 1; time <= 3; ++time) {
+    const std::vector<CellReply> here = collected(pool, replies);
+    for (std::size_t r = 0; r < 20; ++r) EXPECT_EQ(name_of(here[r].state->bytes()), replies[r].state->name());
+    EXPECT_EQ(pool.counts().states_fetched + pool.counts().evaluations_again, 20 * time);
+  }
+}
+
 TEST_F(PoolTest, StatesLostWithTheirWorkerAreMadeAgain) {
   Pool pool(options(1));
   pool.define(testing::fake_definition(""));
