@@ -180,6 +180,13 @@ void CandidateList::find(std::span<const Disc> discs, std::span<const int> types
     radius_second.push_back(radius_first.back());
     harmonic.push_back(harmonic.back());
   }
+  for (LineVector<unsigned>* const numbers : {&first_row, &second_row, &image_row})
+    numbers->resize(second.size());
+  for (std::size_t c = 0; c < second.size(); ++c) {
+    first_row[c] = kDiscRow * static_cast<unsigned>(first[c]);
+    second_row[c] = kDiscRow * static_cast<unsigned>(second[c]);
+    image_row[c] = kImageRow * static_cast<unsigned>(image[c]);
+  }
   for (LineVector<double>& values : springs) values.assign(second.size(), 0.0);
   row_sums.assign(discs.size(), DiscForce{});
 }

@@ -22,7 +22,9 @@ struct CandidateList {
   std::vector<std::int32_t> rows;  ///< candidates of disc i: rows[i] to rows[i + 1]
   LineVector<int> first, second;   ///< the discs of each candidate, the second one seen at
   LineVector<int> image;           ///< this place in `images`
-  LineVector<int> kind;            ///< place in the table of parameters by pair of types
+  /// The same in numbers of the rows that a DiscPass reads: no address asks for a product.
+  LineVector<unsigned> first_row, second_row, image_row;
+  LineVector<int> kind;  ///< place in the table of parameters by pair of types
   LineVector<double> radius_first, radius_second, harmonic;  ///< of the discs, and r_1 r_2 / (r_1 + r_2), m
   LineVector<long long>
       continues;  ///< all bits set where the candidate before has the same first disc, else zero

@@ -232,9 +232,9 @@ void DiscBox::run_kernel(bool advance, double* records) {
   pass.images = images_.data();
   pass.forces = forces_.data();
   pass.row_sums = list_.row_sums.data();
-  pass.first = list_.first.data();
-  pass.second = list_.second.data();
-  pass.image = list_.image.data();
+  pass.first = list_.first_row.data();
+  pass.second = list_.second_row.data();
+  pass.image = list_.image_row.data();
   pass.kind = definition_.combination.types > 1 ? list_.kind.data() : nullptr;
   pass.continues = list_.continues.data();
   pass.radius_first = list_.radius_first.data();

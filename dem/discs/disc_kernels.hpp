@@ -33,16 +33,19 @@ struct DiscPassOf {
   /// Force on the first disc, two; minus the moment that it takes; the moment that the second one takes.
   using Answers = double[4][kStretch];
   static constexpr int kMeetings = 6;
-  static constexpr int kStride = sizeof(Disc) / sizeof(double);
-
   POLARGRAIN_INLINE static const double* row(const Disc* disc) { return &disc->x; }
   POLARGRAIN_INLINE static double* row(DiscForce* force) { return &force->x; }
+  /// @param disc the number at which the row of the disc begins. A processor multiplies by such a small power of two on the way.
+  POLARGRAIN_INLINE static double* force_at(DiscForce* forces, unsigned disc) {
+    constexpr unsigned long kBytes = kForceRow * sizeof(double) / kDiscRow;
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(forces) + kBytes * disc);
+  }
 
   POLARGRAIN_INLINE static Number parameter(const DiscPass& pass, int c, double PairParameters::*which) {
     if (!pass.kind) return all<Number>(pass.parameters->*which);
-    Number made{};
-    for (int lane = 0; lane < Kind::width; ++lane) made[lane] = pass.parameters[pass.kind[c + lane]].*which;
-    return made;
+    return of_each_lane<Number>([&pass, c, which](int lane) POLARGRAIN_INLINE_LAMBDA {
+      return pass.parameters[pass.kind[c + lane]].*which;
+    });
   }
 
   POLARGRAIN_INLINE static ParametersOf<Number> parameters(const DiscPass& pass, int c) {
@@ -68,9 +71,8 @@ struct DiscPassOf {
     Number apart[4];
     columns_of(
         [&]<typename Part>(int lane, int k, Part) POLARGRAIN_INLINE_LAMBDA {
-          return load<Part>(rows + static_cast<long>(pass.first[c + lane]) * kStride + k) -
-                 load<Part>(rows + static_cast<long>(pass.second[c + lane]) * kStride + k) -
-                 load<Part>(images + static_cast<long>(pass.image[c + lane]) * 4 + k);
+          return load<Part>(rows + pass.first[c + lane] + k) - load<Part>(rows + pass.second[c + lane] + k) -
+                 load<Part>(images + pass.image[c + lane] + k);
         },
         apart);
     DiscPair<Number> pair;
@@ -84,11 +86,9 @@ struct DiscPassOf {
   }
 
   /// One number of each disc.
-  POLARGRAIN_INLINE static Number gathered(const double* of_first_disc, const int* index) {
-    Number made{};
-    for (int lane = 0; lane < Kind::width; ++lane)
-      made[lane] = of_first_disc[static_cast<long>(index[lane]) * kStride];
-    return made;
+  POLARGRAIN_INLINE static Number gathered(const double* of_first_disc, const unsigned* rows) {
+    return of_each_lane<Number>([of_first_disc, rows](int lane)
+                                    POLARGRAIN_INLINE_LAMBDA { return of_first_disc[rows[lane]]; });
   }
 
   POLARGRAIN_INLINE static DiscPair<Number> meet(const DiscPass& pass, int c,
@@ -104,7 +104,8 @@ struct DiscPassOf {
     pair.spin_second = gathered(&pass.discs->spin, pass.second + c);
     pair.radius_first = load<Number>(pass.radius_first + c);
     pair.radius_second = load<Number>(pass.radius_second + c);
-    if constexpr (!Kind::bare) {
+    // Dashpots alone ask for masses.
+    if (!Kind::bare && pass.settings.has_dashpots()) {
       pair.inverse_mass_first = gathered(&pass.discs->inverse_mass, pass.first + c);
       pair.inverse_mass_second = gathered(&pass.discs->inverse_mass, pass.second + c);
       pair.inverse_inertia_first = gathered(&pass.discs->inverse_inertia, pass.first + c);
@@ -169,19 +170,18 @@ struct DiscPassOf {
     put(DiscRecord::is_rolling, rolling.at_limit);
   }
 
-  /// Adds the answers of a stretch of candidates to the sums of their rows and to the second discs.
-  POLARGRAIN_INLINE static void sum_up(const DiscPass& pass, int begin, const Answers& answers, int count,
+  /// Adds the answers of as many candidates as there are lanes to the sums of their rows and to the second discs.
+  /// @param begin of the stretch; @param k candidates of the stretch before these
+  POLARGRAIN_INLINE static void sum_up(const DiscPass& pass, int begin, int k, const Answers& answers,
                                        Sum& sum) {
-    for (int k = 0; k < count; k += Kind::width) {
-      Sum rows[Kind::width];
-      rows_of({load<Number>(answers[0] + k), load<Number>(answers[1] + k), load<Number>(answers[2] + k)},
-              load<Number>(answers[3] + k), rows);
-      for (int lane = 0; lane < Kind::width; ++lane) {
-        const int c = begin + k + lane;
-        sum = rows[lane].plus_kept(sum, pass.continues[c]);
-        sum.put(row(pass.row_sums + pass.first[c]));
-        rows[lane].with_fourth_as_third().take_from(row(pass.forces + pass.second[c]));
-      }
+    Sum rows[Kind::width];
+    rows_of({load<Number>(answers[0] + k), load<Number>(answers[1] + k), load<Number>(answers[2] + k)},
+            load<Number>(answers[3] + k), rows);
+    for (int lane = 0; lane < Kind::width; ++lane) {
+      const int c = begin + k + lane;
+      sum = rows[lane].plus_kept(sum, pass.continues[c]);
+      sum.put(force_at(pass.row_sums, pass.first[c]));
+      rows[lane].with_fourth_as_third().take_from(force_at(pass.forces, pass.second[c]));
     }
   }
 
@@ -190,12 +190,18 @@ struct DiscPassOf {
     alignas(64) Answers answers;
     alignas(64) double meetings[kMeetings][kStretch];
     Sum sum;
+    int count = 0;
     for (int begin = 0; begin < pass.candidates; begin += kStretch) {
-      const int count = pass.candidates - begin < kStretch ? pass.candidates - begin : kStretch;
-      for (int k = 0; k < count; k += Kind::width)
-        approach(pass, begin + k,
-                 {meetings[0] + k, meetings[1] + k, meetings[2] + k, meetings[3] + k, meetings[4] + k,
-                  meetings[5] + k});
+      count = pass.candidates - begin < kStretch ? pass.candidates - begin : kStretch;
+      // Each sum waits for the one before, each quotient for the divider: side by side they cost one of the two.
+      const int summed = begin > 0 ? kStretch : 0;
+      for (int k = 0; k < kStretch; k += Kind::width) {
+        if (k < summed) sum_up(pass, begin - kStretch, k, answers, sum);
+        if (k < count)
+          approach(pass, begin + k,
+                   {meetings[0] + k, meetings[1] + k, meetings[2] + k, meetings[3] + k, meetings[4] + k,
+                    meetings[5] + k});
+      }
       for (int k = 0; k < count; k += Kind::width) {
         const DiscPair<Number> pair = meet(pass, begin + k,
                                            {meetings[0] + k, meetings[1] + k, meetings[2] + k,
@@ -203,8 +209,8 @@ struct DiscPassOf {
         double* const out[] = {answers[0] + k, answers[1] + k, answers[2] + k, answers[3] + k};
         treat(pass, begin + k, pair, out);
       }
-      sum_up(pass, begin, answers, count, sum);
     }
+    for (int k = 0; k < count; k += Kind::width) sum_up(pass, pass.candidates - count, k, answers, sum);
     for (int k = 0; k < pass.count; ++k) {
       const double* const from = row(pass.row_sums + k);
       double* const to = row(pass.forces + k);

@@ -9,6 +9,10 @@ namespace polargrain::dem {
 
 /// Candidates are filled up to whole blocks of so many, however many lanes an instruction set has.
 inline constexpr int kDiscBlock = 8;
+/// Numbers in the row of a disc, of a force on it, of an image.
+inline constexpr unsigned kDiscRow = sizeof(Disc) / sizeof(double);
+inline constexpr unsigned kForceRow = sizeof(DiscForce) / sizeof(double);
+inline constexpr unsigned kImageRow = sizeof(MovingImage) / sizeof(double);
 
 /// The record of a candidate: a number in each of these columns.
 struct DiscRecord {
@@ -32,11 +36,11 @@ struct DiscRecord {
 struct DiscPass {
   const Disc* discs;
   const MovingImage* images;
-  DiscForce* forces;    ///< the pass adds to them
-  DiscForce* row_sums;  ///< of each disc, over its own row; zero where the row is empty
-  const int* first;
-  const int* second;
-  const int* image;
+  DiscForce* forces;           ///< the pass adds to them
+  DiscForce* row_sums;         ///< of each disc, over its own row; zero where the row is empty
+  const unsigned* first;       ///< number at which the row of the first disc begins
+  const unsigned* second;      ///< of the second disc
+  const unsigned* image;       ///< of its image
   const int* kind;             ///< of the pair of types; null where there is one type
   const long long* continues;  ///< all bits set where the candidate before has the same first disc, else zero
   const double* radius_first;

@@ -21,6 +21,10 @@ struct LawSettings {
   bool rolling_damped = false;        ///< rolling li_chu: dashpot
   bool mean_radius = false;           ///< rolling li_chu: r_c is the mean radius
   bool torsion = false;               ///< rolling laws of spheres resist twisting too
+
+  [[nodiscard]] constexpr bool has_dashpots() const {
+    return damped || rolling_force_damped || rolling_damped;
+  }
 };
 
 /// Parameters of the contacts between two types of grains, made ready for the loops; of one contact a lane.

@@ -177,7 +177,10 @@ POLARGRAIN_INLINE Number tangential_law(const ParametersOf<Number>& p, const Law
         const Number rolled = advance ? springs[1] - touch.harmonic * touch.relative_spin * step : springs[1];
         rolling = kr * rolled;
         rolls_freely = cut(rolling, p.rolling_force_friction * push);
-        if (advance) springs[1] = select(rolls_freely, rolling / kr, rolled);
+        if (advance) {
+          springs[1] = rolled;
+          if (any(rolls_freely)) springs[1] = select(rolls_freely, rolling / kr, rolled);
+        }
       }
       if (settings.rolling_force_damped)
         viscous = select(rolls_freely, Number{},

@@ -45,6 +45,24 @@ POLARGRAIN_INLINE Number all(double value) {
   return value - Number{};
 }
 
+/// A number for each lane. Pairs are joined: put in lane by lane, each lane would cost a mask.
+/// @param at gives that of a lane
+template <typename Number, typename At>
+POLARGRAIN_INLINE Number of_each_lane(At at) {
+  if constexpr (kWidth<Number> == 1) {
+    return at(0);
+  } else if constexpr (kWidth<Number> == 2) {
+    return Number{at(0), at(1)};
+  } else if constexpr (kWidth<Number> == 4) {
+    const Lanes<2> low{at(0), at(1)}, high{at(2), at(3)};
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+  } else {
+    const Lanes<2> a{at(0), at(1)}, b{at(2), at(3)}, c{at(4), at(5)}, d{at(6), at(7)};
+    return __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 1, 2, 3),
+                                   __builtin_shufflevector(c, d, 0, 1, 2, 3), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+}
+
 template <typename Number>
 POLARGRAIN_INLINE Number root(Number a) {
   if constexpr (kWidth<Number> == 1) {

@@ -131,9 +131,11 @@ void SphereBox::compute_forces(bool advance, bool record) {
   pass.grains = grains_.data();
   pass.forces = forces_.data();
   pass.images = images_.data();
-  pass.first = list_.first.data();
-  pass.second = list_.second.data();
-  pass.image = list_.image.data();
+  pass.first = list_.first_row.data();
+  pass.second = list_.second_row.data();
+  pass.image = list_.image_row.data();
+  pass.radius_first = list_.radius_first.data();
+  pass.radius_second = list_.radius_second.data();
   for (int k = 0; k < kSphereConstants; ++k) pass.constants[k] = list_.constants[k].data();
   for (int k = 0; k < kSphereSprings; ++k) pass.springs[k] = list_.springs[k].data();
   pass.touching = list_.touching;

@@ -10,59 +10,132 @@ template <typename Kind>
 struct PassOf {
   using Number = Lanes<Kind::width>;
 
-  /// Everything of as many candidates as there are lanes.
+  /// Candidates that are treated before their forces are summed up: the processor then has several of them in hand.
+  static constexpr int kStretch = 64;
+  static constexpr int kMeetings = 8;  // difference of places, of velocities, distance, one over it
+  struct Stretch {
+    alignas(64) double meetings[kMeetings][kStretch];
+    RowOfLane<Kind::width> force[kStretch], torque_first[kStretch],
+        torque_second[kStretch];  // force on the first
+  };
+
+  /// @param grain the number at which its rows begin. A processor multiplies by such a small power of two on the way.
+  POLARGRAIN_INLINE static double* force_at(const SpherePass& pass, unsigned grain) {
+    constexpr unsigned long kBytes = kForceStride * sizeof(double) / kGrainStride;
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(pass.forces) + kBytes * grain);
+  }
+
+  /// Row `row` of the first grain less that of the second, and of its image: taken before rows become columns.
   template <bool Across>
-  POLARGRAIN_INLINE static void treat(const SpherePass& pass, int c) {
-    Number place_a[4], place_b[4], velocity_a[4], velocity_b[4], spin_a[4], spin_b[4];
-    load_columns<kGrainStride>(pass.grains, pass.first + c, place_a);
-    load_columns<kGrainStride>(pass.grains, pass.second + c, place_b);
-    load_columns<kGrainStride>(pass.grains + 4, pass.first + c, velocity_a);
-    load_columns<kGrainStride>(pass.grains + 4, pass.second + c, velocity_b);
-    load_columns<kGrainStride>(pass.grains + 8, pass.first + c, spin_a);
-    load_columns<kGrainStride>(pass.grains + 8, pass.second + c, spin_b);
+  POLARGRAIN_INLINE static void apart(const SpherePass& pass, int c, int row, Number (&columns)[4]) {
+    columns_of(
+        [&pass, c, row]<typename Part>(int lane, int k, Part) POLARGRAIN_INLINE_LAMBDA {
+          const Part made = load<Part>(pass.grains + pass.first[c + lane] + row + k) -
+                            load<Part>(pass.grains + pass.second[c + lane] + row + k);
+          if constexpr (Across)
+            return made - load<Part>(pass.images + pass.image[c + lane] + row + k);
+          else
+            return made;
+        },
+        columns);
+  }
+
+  /// Columns of row `row` of grains.
+  POLARGRAIN_INLINE static void columns_of_grains(const SpherePass& pass, const unsigned* grains, int row,
+                                                  Number (&columns)[4]) {
+    columns_of([&pass, grains, row]<typename Part>(int lane, int k, Part)
+                   POLARGRAIN_INLINE_LAMBDA { return load<Part>(pass.grains + grains[lane] + row + k); },
+               columns);
+  }
+
+  /// Where as many candidates as there are lanes lie and how they move. Roots and quotients take long: nothing waits for
+  /// them before the next candidates are under way. @param k where in the stretch
+  template <bool Across>
+  POLARGRAIN_INLINE static void approach(const SpherePass& pass, int c, Stretch& stretch, int k) {
+    Number place[4], velocity[4];
+    apart<Across>(pass, c, 0, place);
+    apart<Across>(pass, c, 4, velocity);
+    const Vector<Number> delta{place[0], place[1], place[2]};
+    const Number distance = root(dot(delta, delta));
+    const Number made[] = {delta.x,     delta.y,     delta.z,  velocity[0],
+                           velocity[1], velocity[2], distance, all<Number>(1.0) / distance};
+    for (int which = 0; which < kMeetings; ++which) store(stretch.meetings[which] + k, made[which]);
+  }
+
+  POLARGRAIN_INLINE static Meeting<Number> meet(const SpherePass& pass, int c, const Stretch& stretch,
+                                                int k) {
+    const auto known = [&stretch, k](int which)
+                           POLARGRAIN_INLINE_LAMBDA { return load<Number>(stretch.meetings[which] + k); };
+    Number spin_a[4], spin_b[4];
+    columns_of_grains(pass, pass.first + c, 8, spin_a);
+    columns_of_grains(pass, pass.second + c, 8, spin_b);
     Meeting<Number> meeting;
-    meeting.delta = {place_a[0] - place_b[0], place_a[1] - place_b[1], place_a[2] - place_b[2]};
-    meeting.velocity = {velocity_a[0] - velocity_b[0], velocity_a[1] - velocity_b[1],
-                        velocity_a[2] - velocity_b[2]};
-    if constexpr (Across) {
-      Number place[4], velocity[4];
-      load_columns<kImageStride>(pass.images, pass.image + c, place);
-      load_columns<kImageStride>(pass.images + 4, pass.image + c, velocity);
-      meeting.delta = meeting.delta - Vector<Number>{place[0], place[1], place[2]};
-      meeting.velocity = meeting.velocity - Vector<Number>{velocity[0], velocity[1], velocity[2]};
-    }
+    meeting.delta = {known(0), known(1), known(2)};
+    meeting.velocity = {known(3), known(4), known(5)};
+    meeting.distance = known(6);
+    meeting.over_distance = known(7);
     meeting.spin_first = {spin_a[0], spin_a[1], spin_a[2]};
     meeting.spin_second = {spin_b[0], spin_b[1], spin_b[2]};
-    meeting.radius_first = place_a[3];
-    meeting.radius_second = place_b[3];
+    meeting.radius_first = load<Number>(pass.radius_first + c);
+    meeting.radius_second = load<Number>(pass.radius_second + c);
+    return meeting;
+  }
 
+  POLARGRAIN_INLINE static void treat(const SpherePass& pass, int c, Stretch& stretch, int k) {
+    const Meeting<Number> meeting = meet(pass, c, stretch, k);
     Number springs[kSphereSprings];
-    for (int k = 0; k < kSphereSprings; ++k)
-      if (Kind::has_spring(k)) springs[k] = load<Number>(pass.springs[k] + c);
+    for (int which = 0; which < kSphereSprings; ++which)
+      if (Kind::has_spring(which)) springs[which] = load<Number>(pass.springs[which] + c);
     Law<Kind, Number> law{pass, c, all<Number>(pass.advance ? pass.step : 0.0), springs};
     const Meant<Number> made = law(meeting);
     if (pass.advance)
-      for (int k = 0; k < kSphereSprings; ++k)
-        if (Kind::has_spring(k)) store(pass.springs[k] + c, springs[k]);
+      for (int which = 0; which < kSphereSprings; ++which)
+        if (Kind::has_spring(which)) store(pass.springs[which] + c, springs[which]);
     Vector<Number> torque_a = (-made.arm_first) * made.turning;
     Vector<Number> torque_b = (-made.arm_second) * made.turning;
     if constexpr (Kind::rolling != kRollingOff) {
       torque_a = torque_a - made.moment;
       torque_b = torque_b + made.moment;
     }
-    RowOfLane<Kind::width> force[Kind::width], rows_a[Kind::width], rows_b[Kind::width];
-    rows_of(made.force, force);
-    rows_of(torque_a, rows_a);
-    rows_of(torque_b, rows_b);
-    for (int lane = 0; lane < Kind::width; ++lane) {
-      double* const a = pass.forces + static_cast<long>(pass.first[c + lane]) * kForceStride;
-      double* const b = pass.forces + static_cast<long>(pass.second[c + lane]) * kForceStride;
-      force[lane].add_to(a);
-      rows_a[lane].add_to(a + 4);
-      force[lane].take_from(b);
-      rows_b[lane].add_to(b + 4);
-    }
+    RowOfLane<Kind::width> rows[Kind::width];
+    const auto keep = [&rows, k](const Vector<Number>& answer, RowOfLane<Kind::width>* to)
+                          POLARGRAIN_INLINE_LAMBDA {
+                            rows_of(answer, rows);
+                            for (int lane = 0; lane < Kind::width; ++lane) to[k + lane] = rows[lane];
+                          };
+    keep(made.force, stretch.force);
+    keep(torque_a, stretch.torque_first);
+    keep(torque_b, stretch.torque_second);
     if (pass.records) take_down(pass, c, meeting, made);
+  }
+
+  /// Adds the answers of as many candidates as there are lanes to the forces on their grains.
+  POLARGRAIN_INLINE static void sum_up(const SpherePass& pass, int c, const Stretch& stretch, int k) {
+    for (int lane = 0; lane < Kind::width; ++lane) {
+      double* const a = force_at(pass, pass.first[c + lane]);
+      double* const b = force_at(pass, pass.second[c + lane]);
+      stretch.force[k + lane].add_to(a);
+      stretch.torque_first[k + lane].add_to(a + 4);
+      stretch.force[k + lane].take_from(b);
+      stretch.torque_second[k + lane].add_to(b + 4);
+    }
+  }
+
+  /// Candidates `begin` to `end`, those of the stretches summed up in their order.
+  template <bool Across>
+  POLARGRAIN_INLINE static void treat_all(const SpherePass& pass, Stretch& stretch, int begin, int end) {
+    int count = 0;
+    for (int from = begin; from < end; from += kStretch) {
+      count = end - from < kStretch ? end - from : kStretch;
+      // Sums wait for those before them, quotients for the divider: side by side they cost one of the two.
+      const int summed = from > begin ? kStretch : 0;
+      for (int k = 0; k < kStretch; k += Kind::width) {
+        if (k < summed) sum_up(pass, from - kStretch + k, stretch, k);
+        if (k < count) approach<Across>(pass, from + k, stretch, k);
+      }
+      for (int k = 0; k < count; k += Kind::width) treat(pass, from + k, stretch, k);
+    }
+    for (int k = 0; k < count; k += Kind::width) sum_up(pass, end - count + k, stretch, k);
   }
 
   POLARGRAIN_INLINE static void take_down(const SpherePass& pass, int c, const Meeting<Number>& meeting,
@@ -95,37 +168,39 @@ struct PassOf {
   POLARGRAIN_INLINE static bool touches(const SpherePass& pass, int begin) {
     bool found = false;
     for (int c = begin; c < begin + kBlock; c += Kind::width) {
-      Number a[4], b[4];
-      load_columns<kGrainStride>(pass.grains, pass.first + c, a);
-      load_columns<kGrainStride>(pass.grains, pass.second + c, b);
-      Vector<Number> delta{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-      if constexpr (Across) {
-        Number place[4];
-        load_columns<kImageStride>(pass.images, pass.image + c, place);
-        delta = delta - Vector<Number>{place[0], place[1], place[2]};
-      }
-      const Number reach = a[3] + b[3];
+      Number place[4];
+      apart<Across>(pass, c, 0, place);
+      const Vector<Number> delta{place[0], place[1], place[2]};
+      const Number reach = load<Number>(pass.radius_first + c) + load<Number>(pass.radius_second + c);
       found = any(dot(delta, delta) < reach * reach) || found;
     }
     return found;
   }
 
   template <bool Across>
-  POLARGRAIN_INLINE static void zones(const SpherePass& pass, int begin, int touching, int end) {
-    for (int c = begin; c < touching; c += Kind::width) treat<Across>(pass, c);
+  POLARGRAIN_INLINE static void zones(const SpherePass& pass, Stretch& stretch, int begin, int touching,
+                                      int end) {
+    treat_all<Across>(pass, stretch, begin, touching);
     for (int c = touching; c < end && pass.gaps[c / kBlock] <= pass.reach; c += kBlock) {
       const bool now = touches<Across>(pass, c);
       // Those that have just parted forget their springs.
-      if (now || pass.active[c / kBlock])
-        for (int lane = 0; lane < kBlock; lane += Kind::width) treat<Across>(pass, c + lane);
+      if (now || pass.active[c / kBlock]) treat_block<Across>(pass, stretch, c);
       if (pass.advance) pass.active[c / kBlock] = now;
     }
   }
 
+  template <bool Across>
+  POLARGRAIN_INLINE static void treat_block(const SpherePass& pass, Stretch& stretch, int c) {
+    for (int k = 0; k < kBlock; k += Kind::width) approach<Across>(pass, c + k, stretch, k);
+    for (int k = 0; k < kBlock; k += Kind::width) treat(pass, c + k, stretch, k);
+    for (int k = 0; k < kBlock; k += Kind::width) sum_up(pass, c + k, stretch, k);
+  }
+
   static void run(const SpherePass& given) {
     const SpherePass pass = given;  // a copy that no store can alias
-    zones<false>(pass, 0, pass.touching, pass.interior);
-    zones<true>(pass, pass.interior, pass.touching_across, pass.count);
+    Stretch stretch;
+    zones<false>(pass, stretch, 0, pass.touching, pass.interior);
+    zones<true>(pass, stretch, pass.interior, pass.touching_across, pass.count);
   }
 };
 

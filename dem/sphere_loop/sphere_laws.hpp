@@ -35,8 +35,9 @@ struct LawKind {
 /// Two spheres as they meet.
 template <typename Number>
 struct Meeting {
-  Vector<Number> delta;     ///< centre of the second to centre of the first, m
-  Vector<Number> velocity;  ///< of the first against the second, m/s
+  Vector<Number> delta;            ///< centre of the second to centre of the first, m
+  Vector<Number> velocity;         ///< of the first against the second, m/s
+  Number distance, over_distance;  ///< of the centres, m; one over it
   Vector<Number> spin_first, spin_second;
   Number radius_first, radius_second;
 };
@@ -266,9 +267,8 @@ struct Law {
     Meant<Number> made{};
     const Number square = dot(m.delta, m.delta);
     const Number reach = m.radius_first + m.radius_second;
-    const Number distance = root(square);
-    const Number overlap = reach - distance;
-    n = (all<Number>(1.0) / distance) * m.delta;
+    const Number overlap = reach - m.distance;
+    n = m.over_distance * m.delta;
     touching = select(square < reach * reach, all<Number>(1.0), zero);
     made.touching = touching;
     made.arm_first = m.radius_first - half * overlap;

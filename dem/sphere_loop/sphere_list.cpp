@@ -257,6 +257,17 @@ void SphereList::find(const double* rows, int how_many, const Eigen::Matrix3d& b
     (zone == 0 ? touching : zone == 1 ? interior : zone == 2 ? touching_across : count) = end;
   }
   active.assign(gaps.size(), 0);
+  for (LineVector<unsigned>* const numbers : {&first_row, &second_row, &image_row})
+    numbers->resize(first.size());
+  for (LineVector<double>* const numbers : {&radius_first, &radius_second}) numbers->resize(first.size());
+  for (std::size_t c = 0; c < first.size(); ++c) {
+    first_row[c] = kGrainStride * static_cast<unsigned>(first[c]);
+    second_row[c] = kGrainStride * static_cast<unsigned>(second[c]);
+    image_row[c] = kImageStride * static_cast<unsigned>(image[c]);
+    // Dummies stand behind the grains and have no radius.
+    radius_first[c] = first[c] < grains ? rows[first_row[c] + 3] : 0.0;
+    radius_second[c] = second[c] < grains ? rows[second_row[c] + 3] : 0.0;
+  }
   for (int k = 0; k < spring_count; ++k) springs[k].assign(first.size(), 0.0);
 }
 

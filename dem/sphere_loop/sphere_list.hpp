@@ -28,6 +28,9 @@ SpaceLattice copy_at(const Eigen::Matrix3d& inverse, const Eigen::Vector3d& plac
 /// SpherePass. The order depends on the positions alone.
 struct SphereList {
   LineVector<int> first, second, image;  ///< of the candidates; grains from `grains` on are dummies
+  /// The same in numbers of the rows that a SpherePass reads: no address asks for a product.
+  LineVector<unsigned> first_row, second_row, image_row;
+  LineVector<double> radius_first, radius_second;              ///< m
   std::array<LineVector<double>, kSphereConstants> constants;  ///< empty where no law asks for them
   std::array<LineVector<double>, kSphereSprings> springs;      ///< zero without contact
   std::vector<SpaceLattice> images;  ///< that occur; the first one is the box itself

@@ -8,8 +8,8 @@ namespace polargrain::dem {
 /// Candidates are treated in blocks of so many, however many lanes an instruction set has.
 inline constexpr int kBlock = 8;
 
-/// A grain is three rows of four numbers: place and radius | velocity, 0 | spin, 0.
-inline constexpr int kGrainStride = 12;
+/// A grain is three rows of four numbers: place and radius | velocity, 0 | spin, 0. A row of nothing fills two cache lines.
+inline constexpr int kGrainStride = 16;
 /// The resultant of its contacts, two rows: force, 0 | torque, 0.
 inline constexpr int kForceStride = 8;
 /// An image of the box, two rows: place, 0 | velocity, 0.
@@ -71,9 +71,11 @@ struct SpherePass {
   const double* grains;
   double* forces;  ///< the pass adds to them
   const double* images;
-  const int* first;
-  const int* second;
-  const int* image;
+  const unsigned* first;   ///< number at which the rows of the first grain begin
+  const unsigned* second;  ///< of the second
+  const unsigned* image;   ///< of its image
+  const double* radius_first;
+  const double* radius_second;
   const double* constants[kSphereConstants];
   double* springs[kSphereSprings];
   int touching, interior, touching_across, count;  ///< ends of the zones
