@@ -60,7 +60,7 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   options->directory = "layer-results";
   CLI::App& command = *program.add_subcommand(
       "layer",
-      "Measure the internal length of grains: layers of them against columns of cells\nLengths are in mean diameters of "
+      "Measure the lengths of grains: layers of them against columns of cells\nLengths are in mean diameters of "
       "the grains. Existing results are kept: the same command goes on.");
   command
       .add_option("SPEC", options->specification,
@@ -87,15 +87,25 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   const auto elastic = std::make_shared<bool>(false);
   command.add_flag("--no-lp", *elastic, "No limit of the couple stress: lc alone is sought")
       ->excludes(plastic);
+  CLI::Option* const spreads =
+      command.add_option("--spread", options->spreads, "Spreads of slips to try [3,5,8]")
+          ->delimiter(',')
+          ->type_name("D,D,...")
+          ->check(CLI::PositiveNumber)
+          ->check(finite_number());
+  const auto local = std::make_shared<bool>(false);
+  command.add_flag("--no-spread", *local, "No column spreads its slips")->excludes(spreads);
   add_sizes(command, *options);
   add_workers(command, options->workers, 1);
   command.add_flag("--quiet", options->quiet, "Print nothing but errors");
   add_settings(command, options->settings);
   add_trust(command, options->scripts, grains);
-  return {&command, [options, elastic, &tools = grains.packing_tools] {
+  return {&command, [options, elastic, local, &tools = grains.packing_tools] {
             if (*elastic) options->plastic_lengths.clear();
+            if (*local) options->spreads.clear();
             check_candidates(options->internal_lengths, "--lc");
             check_candidates(options->plastic_lengths, "--lp");
+            check_candidates(options->spreads, "--spread");
             if (options->seeds.size() < 2)
               throw InputError({"--seeds", 0, "one layer does not show the scatter; give two seeds or more"});
             check_independent_seeds(options->seeds, "--seeds");

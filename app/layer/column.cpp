@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "app/run/run.hpp"
 #include "common/csv_table.hpp"
@@ -38,23 +39,31 @@ std::string column_case(const ColumnSpecification& column) {
   std::string monitors;
   for (int row = 0; row <= last; ++row) {
     levels += fmt::format("{}y{}: {:.17g}", row == 0 ? "" : ", ", row, column.height * row / last);
-    monitors +=
-        fmt::format("  u{0}: {{on: y{0}, displacement: u1}}\n  w{0}: {{on: y{0}, displacement: w}}\n", row);
+    monitors += fmt::format("  u{0}: {{on: y{0}, displacement: u1}}\n", row);
+    if (column.spread == 0.0) monitors += fmt::format("  w{0}: {{on: y{0}, displacement: w}}\n", row);
   }
   const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
   const double grow = (column.way + kBeforePeak) * column.diameter;
+  const bool turns = column.spread == 0.0;
   std::string text =
-      "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\nmesh:\n";
+      "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\n";
+  if (!turns)
+    text += fmt::format("continuum: {{kind: cauchy, spread: {:.17g}, hold: [bottom, top]}}\n", column.spread);
+  text += "mesh:\n";
   text +=
       fmt::format("  rectangle:\n    size: [{:.17g}, {:.17g}]\n    elements: [1, {}]\n    levels: {{{}}}\n",
                   width_of(column), column.height, column.elements, levels);
-  text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}, lc: {:.17g}",
-                      column.script.string(), column.packing.string(), column.internal_length);
-  text += column.plastic_length ? fmt::format(", lp: {:.17g}", *column.plastic_length) : ", lp: none";
-  text +=
-      "}\nregions: {all: sand}\nboundary:\n  - {on: left, tie: right}\n  - {on: bottom, fix: [u1, u2, w]}\n";
-  text += fmt::format("  - {{on: top, fix: [w], move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
-                      column.height, column.pressure);
+  text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}", column.script.string(),
+                      column.packing.string());
+  if (turns) {
+    text += fmt::format(", lc: {:.17g}", column.internal_length);
+    text += column.plastic_length ? fmt::format(", lp: {:.17g}", *column.plastic_length) : ", lp: none";
+  }
+  text += fmt::format(
+      "}}\nregions: {{all: sand}}\nboundary:\n  - {{on: left, tie: right}}\n  - {{on: bottom, fix: [u1, u2{}]}}\n",
+      turns ? ", w" : "");
+  text += fmt::format("  - {{on: top, {}move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
+                      turns ? "fix: [w], " : "", column.height, column.pressure);
   text += fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
   text += fmt::format(
       "    - {{measure: {{on: y{}, from: y{}, displacement: u1}}, grow: {:.17g}, count: {}}}\n", last - below,
@@ -98,7 +107,8 @@ Shearing read_column(const ColumnSpecification& column, const std::filesystem::p
     frame.rotations.resize(rows);
     for (int row = 0; row < rows; ++row) {
       frame.along[row] = history.number(k, history.column(fmt::format("u{}", row)));
-      frame.rotations[row] = history.number(k, history.column(fmt::format("w{}", row)));
+      frame.rotations[row] = column.spread == 0.0 ? history.number(k, history.column(fmt::format("w{}", row)))
+                                                  : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return shearing;

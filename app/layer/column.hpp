@@ -9,7 +9,7 @@
 namespace polargrain::app {
 
 /// A column of elements whose sides are tied, with cells of free rotations and given lengths, sheared between plates that hold
-/// displacement and micro-rotation: the layer of a continuum. Lengths in m.
+/// displacement and micro-rotation, or slips that are spread: the layer of a continuum. Lengths in m.
 struct ColumnSpecification {
   std::filesystem::path script;   ///< beside the case
   std::filesystem::path packing;  ///< of the cells
@@ -19,6 +19,8 @@ struct ColumnSpecification {
   int elements = 10;
   double internal_length = 0.0;
   std::optional<double> plastic_length;
+  /// Of slips in a classical continuum, in the place of both lengths; 0: each point slips by itself.
+  double spread = 0.0;
   double way = 0.0;  ///< displacement past the peak, diameters
 };
 

@@ -77,8 +77,8 @@ FoundLengths lengths_like(const std::vector<LayerFigures>& layers, const Candida
   }
   FoundLengths found;
   found.misfit = std::numeric_limits<double>::infinity();
-  for (const Place& i : places(candidates.internal.size())) {
-    for (const Place& j : places(candidates.plastic.size())) {
+  for (const Place& i : places(candidates.first.size())) {
+    for (const Place& j : places(candidates.second.size())) {
       const Compared value = interpolated(candidates, i, j);
       double squares = 0.0;
       for (std::size_t k = 0; k < mean.size(); ++k)
@@ -86,9 +86,9 @@ FoundLengths lengths_like(const std::vector<LayerFigures>& layers, const Candida
       const double misfit = std::sqrt(squares);
       if (!(misfit < found.misfit)) continue;
       found.misfit = misfit;
-      found.internal = length_at(candidates.internal, i);
-      if (!candidates.plastic.empty()) found.plastic = length_at(candidates.plastic, j);
-      found.at_edge = at_edge(candidates.internal.size(), i) || at_edge(candidates.plastic.size(), j);
+      found.first = length_at(candidates.first, i);
+      if (!candidates.second.empty()) found.second = length_at(candidates.second, j);
+      found.at_edge = at_edge(candidates.first.size(), i) || at_edge(candidates.second.size(), j);
       found.figures.thickness = std::exp(value[0]);
       found.figures.halfway = value[1];
       found.figures.end = value[2];

@@ -8,17 +8,17 @@
 
 namespace polargrain::app {
 
-/// Columns with the cells of one packing, for every pair of candidates: `figures[i][j]` has lc `internal[i]` and lp `plastic[j]`.
+/// Columns with the cells of one packing, for every pair of candidates of a description: lc and lp, lc alone, or a spread.
 struct Candidates {
-  std::vector<double> internal;  ///< rising, in any one unit
-  std::vector<double> plastic;   ///< rising; empty: no limit, and figures[i] has one entry
+  std::vector<double> first;   ///< lengths, rising, in any one unit
+  std::vector<double> second;  ///< lengths, rising; empty: figures[i] has one entry
   std::vector<std::vector<LayerFigures>> figures;
 };
 
 /// The lengths whose column is most like the layers of grains.
 struct FoundLengths {
-  double internal = 0.0;
-  std::optional<double> plastic;
+  double first = 0.0;
+  std::optional<double> second;
   double misfit = 0.0;   ///< root of the mean square of the differences below
   bool at_edge = false;  ///< at the first or last candidate: the true ones may be beyond
   LayerFigures figures;  ///< of such a column, interpolated: halfway, end and thickness

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numeric>
 
 #include "app/commands/csv_file.hpp"
@@ -28,6 +29,32 @@
 namespace polargrain::app {
 namespace {
 
+/// How columns of cells get a thickness: the lengths that are sought, and what is found with each packing of cells.
+struct Description {
+  std::string name;
+  std::vector<double> first, second;  ///< candidates
+  bool spreads = false;               ///< slips, over the first length
+  std::vector<FoundLengths> found = {};
+
+  [[nodiscard]] std::size_t columns() const { return first.size() * std::max<std::size_t>(1, second.size()); }
+  [[nodiscard]] std::vector<double> misfits() const {
+    std::vector<double> all;
+    for (const FoundLengths& one : found) all.push_back(one.misfit);
+    return all;
+  }
+  [[nodiscard]] int at_edge() const {
+    return static_cast<int>(std::ranges::count_if(found, [](const auto& one) { return one.at_edge; }));
+  }
+};
+
+std::vector<Description> descriptions_of(const LayerOptions& options) {
+  std::vector<Description> all{{"lc", options.internal_lengths, {}}};
+  if (!options.plastic_lengths.empty())
+    all.push_back({"lc and lp", options.internal_lengths, options.plastic_lengths});
+  if (!options.spreads.empty()) all.push_back({"spread", options.spreads, {}, true});
+  return all;
+}
+
 class Measurement {
  public:
   Measurement(const LayerOptions& options, const PackingTools& tools)
@@ -36,6 +63,7 @@ class Measurement {
         specification_(read_packing_specification(options.specification, settings_of(options.grains, 1),
                                                   options.scripts)),
         script_(layer_script(specification_.script, specification_.script_file)),
+        descriptions_(descriptions_of(options)),
         jobs_(2 * options.seeds.size() + options.cell_seeds.size() * (1 + candidates()), options.quiet) {
     read_packing_specification(options.specification, settings_of(options.cell_grains, 1), options.scripts);
     refuse_turned_bedding(specification_, options.specification, options.settings);
@@ -48,17 +76,19 @@ class Measurement {
 
   int measure() {
     const std::vector<LayerFigures> layers = shear_layers();
-    std::vector<FoundLengths> found;
     CsvFile table(options_.directory / "columns.csv",
-                  joined({"cells", "lc", "lp"}, figure_names(), {"complete"}));
-    for (const int seed : options_.cell_seeds) found.push_back(lengths_like(layers, columns(seed, table)));
+                  joined({"cells", "lc", "lp", "spread"}, figure_names(), {"complete"}));
+    for (const int seed : options_.cell_seeds)
+      for (Description& description : descriptions_)
+        description.found.push_back(lengths_like(layers, columns(description, seed, table)));
     if (incomplete_columns_ > 0 && !options_.quiet)
       tell(
           stderr,
-          "{} of {} columns of cells did not come {:.3g} diameters past their peak ('complete' 0 in columns.csv): lc and lp "
-          "rest on them as far as they came; try other candidates (--lc, --lp), more --cell-grains, or a smaller --way\n",
+          "{} of {} columns of cells did not come {:.3g} diameters past their peak ('complete' 0 in columns.csv): lengths "
+          "rest on them as far as they came; try other candidates (--lc, --lp, --spread), more --cell-grains, or a smaller --way\n",
           incomplete_columns_, options_.cell_seeds.size() * candidates(), options_.way);
-    conclude(layers, found);
+    write_lengths();
+    conclude(layers);
     return 0;
   }
 
@@ -78,7 +108,9 @@ class Measurement {
     return settings;
   }
   [[nodiscard]] std::size_t candidates() const {
-    return options_.internal_lengths.size() * std::max<std::size_t>(1, options_.plastic_lengths.size());
+    std::size_t count = 0;
+    for (const Description& description : descriptions_) count += description.columns();
+    return count;
   }
   static std::vector<std::string> figure_names() {
     std::vector<std::string> names;
@@ -155,25 +187,29 @@ class Measurement {
     return layers;
   }
 
-  Candidates columns(int seed, CsvFile& table) {
-    const std::filesystem::path cells = packing(options_.cell_grains, seed);
-    const double diameter = 2.0 * read_packing(cells).mean_radius();
-    Candidates made;
-    made.internal = options_.internal_lengths;
-    made.plastic = options_.plastic_lengths;
-    for (const double lc : made.internal) {
-      std::vector<LayerFigures> row;
-      for (std::size_t j = 0; j < std::max<std::size_t>(1, made.plastic.size()); ++j)
-        row.push_back(column(cells, diameter, lc,
-                             made.plastic.empty() ? std::nullopt : std::optional(made.plastic[j]), seed,
-                             table));
-      made.figures.push_back(row);
+  Candidates columns(const Description& description, int seed, CsvFile& table) {
+    const std::filesystem::path cells = cells_of_column(seed);
+    Candidates made{description.first, description.second, {}};
+    for (const double first : made.first) {
+      made.figures.emplace_back();
+      for (std::size_t j = 0; j < std::max<std::size_t>(1, made.second.size()); ++j) {
+        const auto second = made.second.empty() ? std::nullopt : std::optional(made.second[j]);
+        made.figures.back().push_back(column(description, cells, first, second, seed, table));
+      }
     }
     return made;
   }
 
-  LayerFigures column(const std::filesystem::path& cells, double diameter, double lc,
-                      std::optional<double> lp, int seed, CsvFile& table) {
+  /// The packing of the cells of columns, made once.
+  std::filesystem::path cells_of_column(int seed) {
+    const auto [place, is_new] = cells_.try_emplace(seed);
+    if (is_new) place->second = packing(options_.cell_grains, seed);
+    return place->second;
+  }
+
+  LayerFigures column(const Description& description, const std::filesystem::path& cells, double first,
+                      std::optional<double> second, int seed, CsvFile& table) {
+    const double diameter = 2.0 * read_packing(cells).mean_radius();
     ColumnSpecification column;
     column.script = "cell.in";
     column.packing = cells.filename();
@@ -181,10 +217,12 @@ class Measurement {
     column.diameter = diameter;
     column.height = options_.column_height * diameter;
     column.elements = options_.elements;
-    column.internal_length = lc * diameter;
-    if (lp) column.plastic_length = *lp * diameter;
+    (description.spreads ? column.spread : column.internal_length) = first * diameter;
+    if (second) column.plastic_length = *second * diameter;
     column.way = options_.way;
-    const std::string lengths = lp ? fmt::format("lc{:g}-lp{:g}", lc, *lp) : fmt::format("lc{:g}", lc);
+    const std::string lengths = description.spreads ? fmt::format("spread{:g}", first)
+                                : second            ? fmt::format("lc{:g}-lp{:g}", first, *second)
+                                                    : fmt::format("lc{:g}", first);
     const std::filesystem::path folder =
         options_.directory / fmt::format("column-cells{}-seed{}-{}", options_.cell_grains, seed, lengths);
     jobs_.next(fmt::format("column of cells, seed {}, {}", seed, lengths),
@@ -192,10 +230,18 @@ class Measurement {
     run_column(column, folder, options_.workers, options_.scripts);
     const LayerFigures figures = figures_of(read_column(column, folder), diameter, options_.way);
     if (!figures.complete) ++incomplete_columns_;
-    table.add(joined({std::to_string(seed), fmt::format("{:g}", lc), lp ? fmt::format("{:g}", *lp) : "none"},
+    table.add(joined(joined({std::to_string(seed)}, lengths_in_table(description, first, second, "{:g}"), {}),
                      cells_of(figures), {figures.complete ? "1" : "0"}));
     table.write();
     return figures;
+  }
+
+  /// The columns lc, lp and spread of a table.
+  static std::vector<std::string> lengths_in_table(const Description& description, double first,
+                                                   std::optional<double> second, const char* form) {
+    const std::string one = fmt::format(fmt::runtime(form), first);
+    if (description.spreads) return {"none", "none", one};
+    return {one, second ? fmt::format(fmt::runtime(form), *second) : "none", "none"};
   }
 
   /// The mean of logarithms, with the interval as two ends, in mean diameters.
@@ -206,39 +252,90 @@ class Measurement {
     return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
   }
 
-  void conclude(const std::vector<LayerFigures>& layers, const std::vector<FoundLengths>& found) const {
-    std::vector<double> internal;
-    std::vector<double> plastic;
-    int at_edge = 0;
-    CsvFile table(options_.directory / "lengths.csv",
-                  {"cells", "lc", "lp", "misfit", "at_edge", "halfway", "end", "thickness"});
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const FoundLengths& one = found[k];
-      internal.push_back(one.internal);
-      if (one.plastic) plastic.push_back(*one.plastic);
-      at_edge += one.at_edge ? 1 : 0;
-      table.add({std::to_string(options_.cell_seeds[k]), fmt::format("{:.4g}", one.internal),
-                 one.plastic ? fmt::format("{:.4g}", *one.plastic) : "none",
-                 fmt::format("{:.4g}", one.misfit), one.at_edge ? "1" : "0",
-                 fmt::format("{:.4g}", one.figures.halfway), fmt::format("{:.4g}", one.figures.end),
-                 fmt::format("{:.4g}", one.figures.thickness)});
-    }
+  void write_lengths() const {
+    CsvFile table(options_.directory / "lengths.csv", {"description", "cells", "lc", "lp", "spread", "misfit",
+                                                       "at_edge", "halfway", "end", "thickness"});
+    for (const Description& description : descriptions_)
+      for (std::size_t k = 0; k < description.found.size(); ++k) {
+        const FoundLengths& one = description.found[k];
+        table.add(joined({description.name, std::to_string(options_.cell_seeds[k])},
+                         lengths_in_table(description, one.first, one.second, "{:.4g}"),
+                         {fmt::format("{:.4g}", one.misfit), one.at_edge ? "1" : "0",
+                          fmt::format("{:.4g}", one.figures.halfway), fmt::format("{:.4g}", one.figures.end),
+                          fmt::format("{:.4g}", one.figures.thickness)}));
+      }
     table.write();
-    const std::array<double, 3> lc = geometric(internal);
-    std::string text = fmt::format(
-        "# Lengths of the Cosserat layer of cells that is like layers of the same grains; polargrain layer wrote this, a case reads "
-        "it\n# with `lc: measured`. Intervals hold the mean with 95 %, over the packings of cells.\n");
-    const auto entry = [&](const char* key, const std::array<double, 3>& length) {
-      text += fmt::format("{}: {:.6g} m   # {:.3g} mean diameters\n", key, diameter_ * length[0], length[0]);
-      if (std::isfinite(length[1]))
-        text += fmt::format("{}_interval: [{:.6g} m, {:.6g} m]\n", key, diameter_ * length[1],
-                            diameter_ * length[2]);
-    };
-    entry("lc", lc);
-    if (!plastic.empty()) entry("lp", geometric(plastic));
-    text +=
-        fmt::format("mean_diameter: {:.10g} m\nscript: {}\nlayers: {}\ncells: {}\nat_edge: {}\n", diameter_,
-                    coupler::name_of_script(specification_.script), layers.size(), found.size(), at_edge);
+  }
+
+  /// The first length of a description with each packing of cells, or the second.
+  static std::vector<double> lengths_of(const Description& description, bool second) {
+    std::vector<double> all;
+    for (const FoundLengths& one : description.found) all.push_back(second ? *one.second : one.first);
+    return all;
+  }
+
+  /// A length as a case reads it. @param lengths with each packing of cells, in mean diameters
+  [[nodiscard]] std::string entry(const char* key, const std::vector<double>& lengths) const {
+    const std::array<double, 3> length = geometric(lengths);
+    std::string text =
+        fmt::format("{}: {:.6g} m   # {:.3g} mean diameters\n", key, diameter_ * length[0], length[0]);
+    if (std::isfinite(length[1]))
+      text += fmt::format("{}_interval: [{:.6g} m, {:.6g} m]\n", key, diameter_ * length[1],
+                          diameter_ * length[2]);
+    return text;
+  }
+
+  [[nodiscard]] const Description& best() const {
+    const auto mean_misfit = [](const Description& one) { return mean_and_interval(one.misfits()).first; };
+    return *std::ranges::min_element(descriptions_, {}, mean_misfit);
+  }
+
+  /// Misfits in standard deviations of a layer, and how much larger than the least one, packing by packing of cells.
+  [[nodiscard]] std::string comparison() const {
+    const Description& least = best();
+    std::string text =
+        "misfit, in standard deviations of a layer (packing by packing of cells, more than the best):\n";
+    for (const Description& one : descriptions_) {
+      const auto [mean, half] = mean_and_interval(one.misfits());
+      text += fmt::format("  {:<10} {}", one.name, with_interval(mean, half));
+      std::vector<double> more;
+      for (std::size_t k = 0; k < one.found.size(); ++k)
+        more.push_back(one.found[k].misfit - least.found[k].misfit);
+      const auto [difference, of_difference] = mean_and_interval(more);
+      if (&one == &least) {
+        text += "   the layers prefer it\n";
+      } else {
+        text += fmt::format("   {} more{}\n", with_interval(difference, of_difference),
+                            difference > of_difference ? "" : ", within the scatter of the cells");
+      }
+    }
+    return text;
+  }
+  static std::string with_interval(double mean, double half) {
+    return std::isfinite(half) ? fmt::format("{:.2f} +- {:.2f}", mean, half) : fmt::format("{:.2f}", mean);
+  }
+
+  void conclude(const std::vector<LayerFigures>& layers) const {
+    const auto of_case =
+        std::ranges::find_if(descriptions_, [](const auto& one) { return !one.second.empty(); });
+    const Description& cosserat = of_case == descriptions_.end() ? descriptions_.front() : *of_case;
+    std::string text =
+        "# Lengths of columns of cells that are like layers of the same grains; polargrain layer wrote this, a case reads it "
+        "with\n# `lc: measured` or `spread: measured`. Intervals hold the mean with 95 %, over the packings of cells.\n";
+    text += entry("lc", lengths_of(cosserat, false));
+    if (!cosserat.second.empty()) text += entry("lp", lengths_of(cosserat, true));
+    std::string misfits;
+    for (const Description& one : descriptions_) {
+      misfits += fmt::format("{}{}: {:.3g}", misfits.empty() ? "" : ", ", one.name,
+                             mean_and_interval(one.misfits()).first);
+      if (!one.spreads) continue;
+      text += entry("spread", lengths_of(one, false));
+      text += fmt::format("spread_at_edge: {}\n", one.at_edge());
+    }
+    text += fmt::format(
+        "preferred: {}\nmisfits: {{{}}}\nmean_diameter: {:.10g} m\nscript: {}\nlayers: {}\ncells: {}\nat_edge: {}\n",
+        best().name, misfits, diameter_, coupler::name_of_script(specification_.script), layers.size(),
+        cosserat.found.size(), cosserat.at_edge());
     for (const int seed : options_.cell_seeds)
       write_file(coupler::length_file_of(options_.directory /
                                          fmt::format("grains{}-seed{}.h5", options_.cell_grains, seed)),
@@ -247,13 +344,13 @@ class Measurement {
       write_file(coupler::length_file_of(packing), text);
     if (options_.quiet) return;
     show(layers);
-    tell(stdout, "\n{}", text);
-    if (at_edge > 0)
-      tell(
-          stdout,
-          "\n{} of {} packings of cells have their best length at the first or last candidate: try others (--lc, "
-          "--lp)\n",
-          at_edge, found.size());
+    tell(stdout, "\n{}\n{}", comparison(), text);
+    for (const Description& one : descriptions_)
+      if (one.at_edge() > 0)
+        tell(
+            stdout,
+            "\n{}: {} of {} packings of cells have their best length at the first or last candidate: try others\n",
+            one.name, one.at_edge(), one.found.size());
   }
 
   static void show(const std::vector<LayerFigures>& layers) {
@@ -274,6 +371,8 @@ class Measurement {
   const PackingTools& tools_;
   PackingSpecification specification_;
   LayerScript script_;
+  std::vector<Description> descriptions_;
+  std::map<int, std::filesystem::path> cells_;  ///< packings, by their seeds
   Jobs jobs_;
   double diameter_ = 0.0;  ///< mean one of the grains, m
   std::size_t incomplete_columns_ = 0;

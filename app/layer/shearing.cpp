@@ -88,7 +88,7 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
   if (count == 0) throw RunError("the layer has no frames a diameter of displacement apart");
   figures.thickness = std::exp(sum / count);
   figures.growth = one / first;
-  figures.turning = turning / turned_count;
+  figures.turning = turned_count > 0 ? turning / turned_count : std::numeric_limits<double>::quiet_NaN();
   return figures;
 }
 

@@ -183,6 +183,10 @@ class Run {
     fem::SpreadOptions options{.width = case_.spread};
     if (case_.needs_workers()) options.tolerance = case_.solver.force_tolerance;
     fem::add_spread_slip<dim>(problem(), options);
+    for (const std::string& place : case_.slips_held_on)
+      for (const char* const field : fem::kSpreadFields)
+        problem().prescribed_fields.push_back(
+            {.field = field, .on = place, .value = fem::TimeTable::constant(0.0)});
   }
 
   /// @returns whether all steps were committed

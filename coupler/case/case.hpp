@@ -86,6 +86,7 @@ struct Case {
   std::optional<fem::Problem<3>> space;
   /// Width over which slips are spread, m (fem::SpreadOptions::width); 0: each point slips by itself.
   double spread = 0.0;
+  std::vector<std::string> slips_held_on;  ///< boundaries where they are zero; others mirror them
   std::map<std::string, std::shared_ptr<const MaterialRecipe>> materials;  ///< by name
   std::map<std::string, std::string> regions;                              ///< region: name of its material
   std::vector<StepTarget> plan;                                            ///< the steps, in their order

@@ -76,6 +76,17 @@ std::string shown(const std::map<std::string, std::string>& values, const std::s
 CaseIdentity identity_of(const Entry& document, const std::filesystem::path& directory) {
   CaseIdentity identity;
   collect(document, "", directory, identity);
+  // So is `spread: measured`, of each packing.
+  const Entry* const continuum = document.find("continuum");
+  const Entry* const spread = continuum == nullptr ? nullptr : continuum->find("spread");
+  const Entry* const materials = document.find("materials");
+  if (spread != nullptr && spread->text == "measured" && materials != nullptr)
+    for (const Entry::Member& member : materials->members) {
+      const Entry* const packing = member.value.find("packing");
+      const auto file = packing == nullptr ? std::nullopt : find_data_file(packing->text, directory);
+      if (file)
+        identity.files["materials." + member.key + ".spread"] = name_of_content(length_file_of(*file), "");
+    }
   // `friction: measured` is what stands beside the packing.
   const Entry* const interfaces = document.find("interfaces");
   if (interfaces == nullptr) return identity;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -9,10 +10,11 @@
 namespace polargrain::coupler {
 
 /// The lengths that `polargrain layer` has found for the grains of a packing under a script, kept beside the packing in
-/// PACKING.length.yaml and read where a case says `lc: measured` (docs/file_formats.md).
+/// PACKING.length.yaml and read where a case says `lc: measured` or `spread: measured` (docs/file_formats.md).
 struct MeasuredLength {
   double internal_length = 0.0;          ///< lc, m
   std::optional<double> plastic_length;  ///< lp, m; nothing: the couple stress has no limit
+  std::optional<double> spread;          ///< of slips, m; nothing: it was not sought
   double mean_diameter = 0.0;            ///< of the grains, m
   std::string script;                    ///< name_of_script of the contact law
 };
@@ -25,5 +27,18 @@ std::string name_of_script(const std::string& text);
 
 /// @throws InputError with all faults of the file, their lines, and the remedy
 MeasuredLength read_measured_length(const std::filesystem::path& file);
+
+/// The grains that lengths are asked for.
+struct GrainsToMeasure {
+  std::filesystem::path packing;
+  std::string name;            ///< of the packing, as the case has it
+  double mean_diameter = 0.0;  ///< m
+  std::string script;          ///< text of the contact law; empty: it has a fault
+  std::string script_name;
+};
+/// The lengths beside a packing. @returns nothing, and tells `fault` why, where it finds no lengths; it tells too where
+/// they are of other grains or laws
+std::optional<MeasuredLength> length_beside(const GrainsToMeasure& grains,
+                                            const std::function<void(const std::string&)>& fault);
 
 }  // namespace polargrain::coupler

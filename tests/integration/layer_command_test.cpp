@@ -19,7 +19,7 @@ constexpr const char* kGrains =
     "grains: 100\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\nthickness: 100 mm\n"
     "script: cells/hooke_li_chu.in\npressure: 100 kPa\nfriction: 0\nseed: 1\n";
 const std::string kSmall =
-    " layer grains.yaml -o out --grains 144 --seeds 1,3 --cell-grains 16 --cell-seeds 1,2 --lc 0.3 --lp 0.25,0.5 --way 1 "
+    " layer grains.yaml -o out --grains 144 --seeds 1,3 --cell-grains 16 --cell-seeds 1,2 --lc 0.3 --lp 0.25,0.5 --spread 3 --way 1 "
     "--shear 0.3 --inertial-number 4e-3 --column 8 --elements 4 -w 1";
 
 /// A case of one element with a cell of the packing and that key.
@@ -37,7 +37,7 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   const Outcome made = run_in(scratch.path(), kProgram + kSmall);
   ASSERT_EQ(made.status, 0) << made.errors;
   const CsvTable columns(scratch.path() / "out/columns.csv");
-  ASSERT_EQ(columns.rows(), 4u);
+  ASSERT_EQ(columns.rows(), 8u);  // lc alone, two of lp, a spread, for each of two packings
   ASSERT_EQ(CsvTable(scratch.path() / "out/layers.csv").rows(), 2u);
   for (std::size_t row = 0; row < columns.rows(); ++row) {
     // Friction of half a radian with rolling resistance: between 0.4 and 1.2 in so few grains.
@@ -52,6 +52,10 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   EXPECT_NEAR(measured.internal_length, 0.3 * measured.mean_diameter, 1e-6);
   EXPECT_GE(*measured.plastic_length, 0.25 * measured.mean_diameter * (1 - 1e-5));
   EXPECT_LE(*measured.plastic_length, 0.5 * measured.mean_diameter * (1 + 1e-5));
+
+  EXPECT_NEAR(measured.spread.value(), 3.0 * measured.mean_diameter, 1e-6);
+  for (const char* const words : {"the layers prefer it", "lc and lp", "\n  spread "})
+    EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
 
   // All is there: nothing is made again, and the same is found.
   const std::string lengths = content(scratch.path() / "out/lengths.csv");
@@ -72,6 +76,11 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   const Outcome informed =
       run_in(scratch.path(), kProgram + " check case.yaml --set materials.sand.model=informed");
   EXPECT_EQ(informed.status, 0) << informed.errors;
+  // And the spread of the whole body.
+  const std::string spreads = "continuum: {kind: cauchy, spread: measured, hold: bottom}\n";
+  write(scratch.path() / "spread.yaml", spreads + case_with("other.h5"));
+  const Outcome spread = run_in(scratch.path(), kProgram + " check spread.yaml");
+  EXPECT_EQ(spread.status, 0) << spread.errors;
   std::filesystem::copy(scratch.path() / packing, scratch.path() / "bare.h5");
   write(scratch.path() / "case.yaml", case_with("bare.h5, lc: measured"));
   const Outcome none = run_in(scratch.path(), kProgram + " check case.yaml");
@@ -81,6 +90,10 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
                 "SPEC.yaml --beside bare.h5' makes the experiment and writes it, or give a length"),
             std::string::npos)
       << none.errors;
+  write(scratch.path() / "spread.yaml", spreads + case_with("bare.h5"));
+  EXPECT_NE(run_in(scratch.path(), kProgram + " check spread.yaml")
+                .errors.find("spread.yaml:1: continuum: spread: measured: there is no bare.length.yaml"),
+            std::string::npos);
   std::string other_law = content(scratch.path() / "other.length.yaml");
   other_law.replace(other_law.find("script: ") + 8, 4, "0000");
   write(scratch.path() / "bare.length.yaml", other_law);
@@ -103,7 +116,7 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   write(history, kept);
   const Outcome cut = run_in(scratch.path(), kProgram + kSmall);
   ASSERT_EQ(cut.status, 0) << cut.errors;
-  EXPECT_NE(cut.errors.find(" of 4 columns of cells did not come 1 diameters past their peak"),
+  EXPECT_NE(cut.errors.find(" of 8 columns of cells did not come 1 diameters past their peak"),
             std::string::npos)
       << cut.errors;
 

@@ -131,8 +131,8 @@ TEST(LayerLengths, AreFoundBetweenTheCandidates) {
   const std::vector<LayerFigures> layers{continuum(0.3, 0.5), continuum(0.3, 0.5)};
   const FoundLengths found = lengths_like(layers, candidates({0.2, 0.4, 0.8}, {0.25, 1.0}));
   // The continuum is linear in the logarithms: a hundredth of the way between candidates is 0.7 % and 1.4 %.
-  EXPECT_NEAR(found.internal, 0.3, 0.01 * 0.3);
-  EXPECT_NEAR(*found.plastic, 0.5, 0.02 * 0.5);
+  EXPECT_NEAR(found.first, 0.3, 0.01 * 0.3);
+  EXPECT_NEAR(*found.second, 0.5, 0.02 * 0.5);
   EXPECT_FALSE(found.at_edge);
   EXPECT_LT(found.misfit, 0.2);
   EXPECT_NEAR(found.figures.thickness, 10.0 * std::sqrt(0.15), 0.05);
@@ -142,14 +142,14 @@ TEST(LayerLengths, BeyondTheCandidatesAreSaidToBe) {
   const std::vector<LayerFigures> layers{continuum(2.0, 0.5), continuum(2.0, 0.5)};
   const FoundLengths found = lengths_like(layers, candidates({0.2, 0.8}, {0.25, 1.0}));
   EXPECT_TRUE(found.at_edge);
-  EXPECT_DOUBLE_EQ(found.internal, 0.8);
+  EXPECT_DOUBLE_EQ(found.first, 0.8);
 }
 
 TEST(LayerLengths, OneLengthAloneCanBeSought) {
   Candidates elastic{{0.2, 0.8}, {}, {{like(2.0, 0.7, 0.6)}, {like(8.0, 0.7, 0.6)}}};
   const FoundLengths found = lengths_like({like(4.0, 0.7, 0.6), like(4.0, 0.7, 0.6)}, elastic);
-  EXPECT_NEAR(found.internal, 0.4, 1e-12);
-  EXPECT_FALSE(found.plastic.has_value());
+  EXPECT_NEAR(found.first, 0.4, 1e-12);
+  EXPECT_FALSE(found.second.has_value());
 }
 
 TEST(LayerLengths, TheIntervalIsStudents) {

@@ -40,9 +40,6 @@ std::filesystem::path packing_file(Section& section, const std::filesystem::path
   return {};
 }
 
-/// Sizes of grains may differ by so much, relative, from those a length was measured with.
-constexpr double kSameGrains = 0.05;
-
 /// `lc: measured`: the lengths that polargrain layer has written beside the packing.
 void take_measured_length(Section& section, const CellDefinition& definition, const CaseFiles& files,
                           CosseratChoice& choice) {
@@ -50,34 +47,14 @@ void take_measured_length(Section& section, const CellDefinition& definition, co
   const Entry* const packing = section.find("packing");
   const auto place = packing == nullptr ? std::nullopt : find_data_file(packing->text, files.directory);
   if (!place || definition.packing.grains.empty()) return;  // is a fault already
-  const std::filesystem::path file = length_file_of(*place);
-  if (!std::filesystem::exists(file)) {
-    section.fault("lc", fmt::format("lc: measured: there is no {}; 'polargrain layer SPEC.yaml --beside {}' "
-                                    "makes the experiment and writes it, or give a length",
-                                    file.filename().string(), packing->text));
-    return;
-  }
-  try {
-    const MeasuredLength measured = read_measured_length(file);
-    const double diameter = 2.0 * definition.packing.mean_radius();
-    if (std::abs(measured.mean_diameter - diameter) > kSameGrains * diameter)
-      section.fault(
-          "lc",
-          fmt::format("lc: measured: {} is of grains of {:.4g} mm, the grains of the packing have {:.4g} mm; "
-                      "measure with these grains, or give a length",
-                      file.filename().string(), 1e3 * measured.mean_diameter, 1e3 * diameter));
-    if (!definition.script.empty() && measured.script != name_of_script(definition.script))
-      section.fault("lc", fmt::format("lc: measured: {} was measured under another contact law than {} has; "
-                                      "measure with this script, or give a length",
-                                      file.filename().string(), definition.script_file));
-    choice.internal_length = measured.internal_length;
-    // Lengths that were measured without a limit go without one.
-    choice.plastic_length = {measured.plastic_length, !measured.plastic_length};
-  } catch (const InputError& error) {
-    for (const Fault& fault : error.faults())
-      section.fault(
-          "lc", fmt::format("lc: measured: {}:{}: {}", file.filename().string(), fault.line, fault.message));
-  }
+  const auto fault = [&section](const std::string& text) { section.fault("lc", "lc: measured: " + text); };
+  const auto measured = length_beside({*place, packing->text, 2.0 * definition.packing.mean_radius(),
+                                       definition.script, definition.script_file},
+                                      fault);
+  if (!measured) return;
+  choice.internal_length = measured->internal_length;
+  // Lengths that were measured without a limit go without one.
+  choice.plastic_length = {measured->plastic_length, !measured->plastic_length};
 }
 
 /// A limit: a value, `none`, or what the packing has, which is the default.
