@@ -403,6 +403,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(SpreadSlips, OddFeatures,
                          ::testing::Values(Careless{"OverTwoElements", kSpread, "", ""},
+                                           Careless{"BesideMicroRotations",
+                                                    replaced(kSpread, "kind: cauchy", "kind: cosserat"),
+                                                    "nu: 0.3", "nu: 0.3, Gc: 10 MPa, lc: 1 mm"},
                                            Careless{"NothingSoftens", kSpread, "[42 deg, 30 deg]", "42 deg"},
                                            Careless{"ColumnOfOneRow",
                                                     replaced(kSpread, "[0.2 m, 0.4 m], elements: [8, 16]",

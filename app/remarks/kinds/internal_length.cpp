@@ -130,11 +130,12 @@ void spread_of_slips(const Scene& scene, Remarks& remarks) {
 void internal_length(const Scene& scene, Remarks& remarks) {
   spread_of_slips(scene, remarks);
   if (scene.is_classical()) return;
+  const bool slips_set_bands = scene.the_case().spread > 0.0;
   for (const SceneRegion& region : scene.regions()) {
-    controlled_rotations(scene, region, remarks);
+    if (!slips_set_bands) controlled_rotations(scene, region, remarks);
     const auto length = scene.quantity({"materials", region.material, "lc"}, coupler::Dimension::length);
     if (!length || *length <= 0.0) continue;
-    if (is_strong(scene, region)) against_elements(scene, region, *length, remarks);
+    if (is_strong(scene, region) && !slips_set_bands) against_elements(scene, region, *length, remarks);
     far_below_elements(scene, region, *length, remarks);
     against_body(scene, region, *length, remarks);
     against_grains(scene, region, *length, remarks);
