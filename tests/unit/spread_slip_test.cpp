@@ -42,6 +42,12 @@ using Law = std::shared_ptr<Material<2>>;
 Law cone(const ElastoplasticParameters<2>& parameters) {
   return std::make_shared<SlipDrivenCone<2>>(parameters);
 }
+Law cone_of_short_length(const ElastoplasticParameters<2>& parameters) {
+  ElastoplasticParameters<2> turning = parameters;
+  turning.elastic.cosserat_shear_modulus = 10e6;
+  turning.elastic.internal_length = 0.05 * kDiameter;
+  return cone(turning);
+}
 Law local(const ElastoplasticParameters<2>& parameters) {
   return std::make_shared<LocalMaterial<ElastoplasticLaw<2>>>(ElastoplasticLaw<2>(parameters));
 }
@@ -52,11 +58,12 @@ Law answers_of(const ElastoplasticParameters<2>& parameters) {
 
 /// A periodic column of one element across, sheared; the strength of its middle diameter, or of the half one at `weak`, is 2 % lower.
 Problem<2> softening_column(int elements, double width = kWidth, double weak = 0.5 * kHeight,
-                            Law (*law)(const ElastoplasticParameters<2>&) = cone) {
+                            Law (*law)(const ElastoplasticParameters<2>&) = cone,
+                            Continuum continuum = Continuum::cauchy) {
   Problem<2> problem;
   const double size = kHeight / elements;
   problem.mesh = rectangle({{size, kHeight}, {1, elements}});
-  problem.continuum = Continuum::cauchy;
+  problem.continuum = continuum;
   problem.mesh.regions.clear();
   for (int e = 0; e < elements; ++e) {
     const bool middle = std::abs((e + 0.5) * size - weak) < 0.5 * kDiameter;
@@ -214,15 +221,8 @@ TEST(spread_slip, column_of_a_law_known_by_its_answers_is_that_of_the_law) {
 
 // A length far below the spread leaves the couple stress nothing to carry; skew stress is elastic.
 TEST(spread_slip, column_with_micro_rotations_of_a_short_length_is_the_classical_one) {
-  Problem<2> problem = softening_column(40);
-  problem.continuum = Continuum::cosserat;
-  for (const char* region : {"weak", "rest"}) {
-    ElastoplasticParameters<2> parameters = softening_of_spread_slip(region[0] == 'w' ? kWeak : 1.0);
-    parameters.elastic.cosserat_shear_modulus = 10e6;
-    parameters.elastic.internal_length = 0.05 * kDiameter;
-    problem.materials[region] = cone(parameters);
-  }
-  Solver<2> solver(std::move(problem), {});
+  Solver<2> solver(softening_column(40, kWidth, 0.5 * kHeight, cone_of_short_length, Continuum::cosserat),
+                   {});
   ASSERT_TRUE(solver.equilibrate().converged);
   for (int step = 1; step <= 60; ++step) ASSERT_TRUE(solver.advance(step * 0.8e-3).converged);
   const ClosedForm exact = ClosedForm::at(60 * 0.8e-3);
