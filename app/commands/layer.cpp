@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
 #include "app/commands/command.hpp"
 #include "app/commands/independent_seeds.hpp"
 #include "app/layer/measure.hpp"
+#include "app/remarks/lengths.hpp"
 #include "common/error.hpp"
 
 namespace polargrain::app {
@@ -53,6 +56,17 @@ void check_candidates(const std::vector<double>& lengths, const char* option) {
           {option, 0, "candidates must grow from one to the next; give them in order, each once"});
 }
 
+/// A band of slips is no narrower than its elements let it be.
+void check_elements(const LayerOptions& options) {
+  const double element = options.column_height / options.elements;
+  if (!options.spreads.empty() && element > kMostElementOverSpread * options.spreads.front())
+    throw InputError(
+        {"--spread", 0,
+         fmt::format("{:g} diameters need elements of {:g} or less, a column has them of {:g}; give more "
+                     "--elements, or wider spreads",
+                     options.spreads.front(), kMostElementOverSpread * options.spreads.front(), element)});
+}
+
 }  // namespace
 
 Command add_layer(CLI::App& program, const Grains& grains) {
@@ -88,7 +102,7 @@ Command add_layer(CLI::App& program, const Grains& grains) {
   command.add_flag("--no-lp", *elastic, "No limit of the couple stress: lc alone is sought")
       ->excludes(plastic);
   CLI::Option* const spreads =
-      command.add_option("--spread", options->spreads, "Spreads of slips to try [3,5,8]")
+      command.add_option("--spread", options->spreads, "Spreads of slips to try [4,6,9]")
           ->delimiter(',')
           ->type_name("D,D,...")
           ->check(CLI::PositiveNumber)
@@ -106,6 +120,7 @@ Command add_layer(CLI::App& program, const Grains& grains) {
             check_candidates(options->internal_lengths, "--lc");
             check_candidates(options->plastic_lengths, "--lp");
             check_candidates(options->spreads, "--spread");
+            check_elements(*options);
             if (options->seeds.size() < 2)
               throw InputError({"--seeds", 0, "one layer does not show the scatter; give two seeds or more"});
             check_independent_seeds(options->seeds, "--seeds");

@@ -21,7 +21,7 @@ struct LayerOptions {
   std::vector<int> cell_seeds{1, 2, 3, 4, 5};             ///< columns with these cells
   std::vector<double> internal_lengths{0.2, 0.4, 0.8};    ///< lc to try
   std::vector<double> plastic_lengths{0.25, 0.5, 1.0};    ///< lp to try
-  std::vector<double> spreads{3.0, 5.0, 8.0};             ///< of slips, to try
+  std::vector<double> spreads{4.0, 6.0, 9.0};             ///< of slips, to try
   double way = 4.0;               ///< displacement past the peak over which both are compared
   double shear = 0.16;            ///< of a layer: displacement of the upper plate over its height
   double inertial_number = 2e-4;  ///< of a layer

@@ -11,7 +11,8 @@
 namespace polargrain::app {
 namespace {
 
-/// Mean of the ratios within so much on either side of a displacement, m; not-a-number beyond the curve.
+/// Mean of the ratios within so much on either side of a displacement, m; where a jump passed it by, between its ends;
+/// not-a-number beyond the curve.
 double ratio_about(const Shearing& shearing, double displacement, double reach) {
   double sum = 0.0;
   int count = 0;
@@ -20,7 +21,13 @@ double ratio_about(const Shearing& shearing, double displacement, double reach) 
     sum += shearing.ratios[k];
     ++count;
   }
-  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+  if (count > 0) return sum / count;
+  for (std::size_t k = 0; k + 1 < shearing.displacements.size(); ++k) {
+    const double before = shearing.displacements[k], after = shearing.displacements[k + 1];
+    if ((before - displacement) * (after - displacement) > 0.0) continue;
+    return std::lerp(shearing.ratios[k], shearing.ratios[k + 1], (displacement - before) / (after - before));
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The frame nearest to a displacement.

@@ -19,7 +19,7 @@ constexpr const char* kGrains =
     "grains: 100\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\nthickness: 100 mm\n"
     "script: cells/hooke_li_chu.in\npressure: 100 kPa\nfriction: 0\nseed: 1\n";
 const std::string kSmall =
-    " layer grains.yaml -o out --grains 144 --seeds 1,3 --cell-grains 16 --cell-seeds 1,2 --lc 0.3 --lp 0.25,0.5 --spread 3 --way 1 "
+    " layer grains.yaml -o out --grains 144 --seeds 1,3 --cell-grains 16 --cell-seeds 1,2 --lc 0.3 --lp 0.25,0.5 --spread 4 --way 1 "
     "--shear 0.3 --inertial-number 4e-3 --column 8 --elements 4 -w 1";
 
 /// A case of one element with a cell of the packing and that key.
@@ -53,7 +53,7 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   EXPECT_GE(*measured.plastic_length, 0.25 * measured.mean_diameter * (1 - 1e-5));
   EXPECT_LE(*measured.plastic_length, 0.5 * measured.mean_diameter * (1 + 1e-5));
 
-  EXPECT_NEAR(measured.spread.value(), 3.0 * measured.mean_diameter, 1e-6);
+  EXPECT_NEAR(measured.spread.value(), 4.0 * measured.mean_diameter, 1e-6);
   for (const char* const words : {"the layers prefer it", "lc and lp", "\n  spread "})
     EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
 
@@ -141,6 +141,9 @@ TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
   EXPECT_NE(errors_of("--seeds 1,2,1").find("seed 1 stands twice"), std::string::npos);
   EXPECT_NE(errors_of("--cell-seeds 1,1").find("no independent samples"), std::string::npos);
   EXPECT_NE(errors_of("--lc 0.4,0.2").find("candidates must grow"), std::string::npos);
+  EXPECT_NE(errors_of("--spread 3,5")
+                .find("--spread: 3 diameters need elements of 1.5 or less, a column has them of 2"),
+            std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
   EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);
   EXPECT_NE(errors_of("--way 0").find("--way"), std::string::npos);

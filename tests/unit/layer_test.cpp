@@ -96,6 +96,21 @@ TEST(LayerFiguresOf, AKnownLayer) {
   EXPECT_THROW(figures_of(Shearing{}, 0.01, 4.0), RunError);
 }
 
+TEST(LayerFiguresOf, AJumpThatPassesAPlaceHasTheRatioBetweenItsEnds) {
+  const LayerFigures whole = figures_of(known_layer(), 0.01, 4.0);
+  Shearing jumping = known_layer();
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < jumping.ratios.size(); ++k) {
+    const double way = jumping.displacements[k] / 0.01;
+    if (way > 2.4 && way < 3.9) continue;  // the curve is straight there
+    jumping.displacements[kept] = jumping.displacements[k];
+    jumping.ratios[kept++] = jumping.ratios[k];
+  }
+  jumping.displacements.resize(kept);
+  jumping.ratios.resize(kept);
+  EXPECT_NEAR(figures_of(jumping, 0.01, 4.0).halfway, whole.halfway, 1e-3);
+}
+
 TEST(LayerFiguresOf, ALayerThatHasItsPeakAtItsEndIsNotCompleteAndStillHasABand) {
   Shearing rising = known_layer();
   for (std::size_t k = 0; k < rising.ratios.size(); ++k) rising.ratios[k] = 1e-3 * static_cast<double>(k);
