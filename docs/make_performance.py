@@ -129,6 +129,8 @@ Nanoseconds a grain and step, over a bare loop of the same physics:""", "step_be
     ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing. "+tangent" is the
 additional time of the condensed tangent. "off" is the deviator against a slow run. A state has 385 bytes a sphere.""", "sphere_bench.txt", [],
      ["contacts", "hooke/radii, history", "and torsion"]),
+    ("", """A sphere and step. The divider takes a quarter of the AVX-512 pass: eight lanes take twice as long as four. Elimination is half of the
+tangent.""", "sphere_step_bench.txt", [], ["hooke", "  ", "clean", "AVX", "lammps"]),
     ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm. Both loops make the same void ratio: ten packings of 300 spheres differ by
 -0.007 +- 0.013 with friction 0.5, 0.004 +- 0.006 without.""", "pack_bench.csv",
      ["packing", "grains", "seconds", "DEM steps"], ["discs, void"]),
@@ -162,7 +164,7 @@ def page():
     """@returns the text of docs/performance.md"""
     lines = ["# Performance", "",
              "*What does a computation cost, and what accuracy does it buy? For users who plan runs.*", "",
-             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance). `git log -1 FILE` names the latest program that a file can be of.",
+             "`docs/make_performance.py` writes this page from the outputs of the commands below, kept in [data/performance](data/performance).",
              "Times differ by some ten per cent between machines; ratios within a table do not. Contact models in the stock loop:",
              "[contact_loop.csv](data/performance/contact_loop.csv).", ""]
     for heading, words, name, columns, shown in SECTIONS:
