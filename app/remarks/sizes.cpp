@@ -120,6 +120,8 @@ std::string sizes_text(const Scene& scene) {
       fmt::format("body {}, elements {} on average; largest movement {}, {:.3g} % of the smaller side\n",
                   sides, metres(scene.body().mean_element), metres(scene.largest_movement()),
                   100.0 * scene.largest_movement() / smaller_whole_side(scene));
+  if (const double spread = scene.the_case().spread; spread > 0.0)
+    text += fmt::format("slips are spread over {}\n", metres(spread));
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
   if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);

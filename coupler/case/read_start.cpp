@@ -269,7 +269,7 @@ void read_start(Section& top, CaseParts& parts) {
     if (end.step < 1) fault(fmt::format("'{}' has taken no step yet; run it to its end", name));
     const auto spread = end.identity.values.find("continuum.spread");
     if (spread != end.identity.values.end() &&
-        parse_quantity(spread->second, Dimension::length).value_or(1.0) > 0.0)  // or measured
+        parse_quantity(spread->second, Dimension::length).value_or(1.0) > 0.0)  // or of grains
       fault(fmt::format("'{}' spreads slips over {}, which no run takes over yet; take a run without spread",
                         name, spread->second));
     const CaseIdentity now = identity_of(top.entry(), parts.directory);

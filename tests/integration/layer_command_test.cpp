@@ -81,6 +81,14 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   write(scratch.path() / "spread.yaml", spreads + case_with("other.h5"));
   const Outcome spread = run_in(scratch.path(), kProgram + " check spread.yaml");
   EXPECT_EQ(spread.status, 0) << spread.errors;
+  const Outcome of_medians =
+      run_in(scratch.path(), kProgram + " check spread.yaml --set 'continuum.spread=5 d50'");
+  EXPECT_EQ(of_medians.status, 0) << of_medians.errors;
+  EXPECT_NE(spread.out.find("slips are spread over 40 mm\n"), std::string::npos) << spread.out;
+  // Half of the area is of discs below 11 to 12 mm: radii are uniform between 3 and 7 mm.
+  EXPECT_TRUE(of_medians.out.find("slips are spread over 5") != std::string::npos ||
+              of_medians.out.find("slips are spread over 6") != std::string::npos)
+      << of_medians.out;
   std::filesystem::copy(scratch.path() / packing, scratch.path() / "bare.h5");
   write(scratch.path() / "case.yaml", case_with("bare.h5, lc: measured"));
   const Outcome none = run_in(scratch.path(), kProgram + " check case.yaml");

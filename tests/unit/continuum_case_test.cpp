@@ -61,6 +61,11 @@ TEST_F(ContinuumCase, a_specimen_between_plates_slips_past_its_peak) {
   EXPECT_GT(peak, 3.0 * 100e3 * 0.2);  // (1 + sin 40) / (1 - sin 40) = 4.6, rough plates add to it
 }
 
+TEST_F(ContinuumCase, slips_may_be_held_at_boundaries) {
+  EXPECT_EQ(read("spread: 50 mm", "spread: 50 mm, hold: [bottom, top]").slips_held_on,
+            (std::vector<std::string>{"bottom", "top"}));
+}
+
 TEST_F(ContinuumCase, without_a_spread_it_is_the_case_of_before) {
   for (const char* none : {"cauchy", "{kind: cauchy}", "{kind: cauchy, spread: 0}"}) {
     const Case found = read("{kind: cauchy, spread: 50 mm}", none);
@@ -73,8 +78,16 @@ TEST_F(ContinuumCase, without_a_spread_it_is_the_case_of_before) {
 }
 
 TEST_F(ContinuumCase, faults_say_where_slips_are_not_spread) {
-  EXPECT_NE(fault("spread: 50 mm", "spread: 5 d50")
-                .find("2: continuum: spread: the spread is one of the whole body"),
+  EXPECT_NE(
+      fault("spread: 50 mm", "spread: 5 d50").find("2: continuum: spread: 5 d50: no material has grains"),
+      std::string::npos);
+  EXPECT_NE(fault("spread: 50 mm", "spread: d50")
+                .find("2: continuum: spread: d50: expected a length, 'measured', or"),
+            std::string::npos);
+  EXPECT_NE(fault("spread: 50 mm", "hold: top").find("2: continuum: hold: without 'spread'"),
+            std::string::npos);
+  EXPECT_NE(fault("spread: 50 mm", "spread: 50 mm, hold: [top, botom]")
+                .find("hold: the mesh has no boundary or node set 'botom'; did you mean 'bottom'?"),
             std::string::npos);
   EXPECT_NE(fault("steps: {count: 20}", "steps: {count: 20, method: explicit}")
                 .find("2: continuum: spread: explicit steps"),
