@@ -11,6 +11,7 @@
 
 #include "app/commands/csv_file.hpp"
 #include "app/layer/column.hpp"
+#include "app/layer/descriptions.hpp"
 #include "app/layer/grain_layer.hpp"
 #include "app/layer/jobs.hpp"
 #include "app/layer/lengths.hpp"
@@ -28,32 +29,6 @@
 
 namespace polargrain::app {
 namespace {
-
-/// How columns of cells get a thickness: the lengths that are sought, and what is found with each packing of cells.
-struct Description {
-  std::string name;
-  std::vector<double> first, second;  ///< candidates
-  bool spreads = false;               ///< slips, over the first length
-  std::vector<FoundLengths> found = {};
-
-  [[nodiscard]] std::size_t columns() const { return first.size() * std::max<std::size_t>(1, second.size()); }
-  [[nodiscard]] std::vector<double> misfits() const {
-    std::vector<double> all;
-    for (const FoundLengths& one : found) all.push_back(one.misfit);
-    return all;
-  }
-  [[nodiscard]] int at_edge() const {
-    return static_cast<int>(std::ranges::count_if(found, [](const auto& one) { return one.at_edge; }));
-  }
-};
-
-std::vector<Description> descriptions_of(const LayerOptions& options) {
-  std::vector<Description> all{{"lc", options.internal_lengths, {}}};
-  if (!options.plastic_lengths.empty())
-    all.push_back({"lc and lp", options.internal_lengths, options.plastic_lengths});
-  if (!options.spreads.empty()) all.push_back({"spread", options.spreads, {}, true});
-  return all;
-}
 
 class Measurement {
  public:
@@ -285,36 +260,6 @@ class Measurement {
     return text;
   }
 
-  [[nodiscard]] const Description& best() const {
-    const auto mean_misfit = [](const Description& one) { return mean_and_interval(one.misfits()).first; };
-    return *std::ranges::min_element(descriptions_, {}, mean_misfit);
-  }
-
-  /// Misfits in standard deviations of a layer, and how much larger than the least one, packing by packing of cells.
-  [[nodiscard]] std::string comparison() const {
-    const Description& least = best();
-    std::string text =
-        "misfit, in standard deviations of a layer (packing by packing of cells, more than the best):\n";
-    for (const Description& one : descriptions_) {
-      const auto [mean, half] = mean_and_interval(one.misfits());
-      text += fmt::format("  {:<10} {}", one.name, with_interval(mean, half));
-      std::vector<double> more;
-      for (std::size_t k = 0; k < one.found.size(); ++k)
-        more.push_back(one.found[k].misfit - least.found[k].misfit);
-      const auto [difference, of_difference] = mean_and_interval(more);
-      if (&one == &least) {
-        text += "   the layers prefer it\n";
-      } else {
-        text += fmt::format("   {} more{}\n", with_interval(difference, of_difference),
-                            difference > of_difference ? "" : ", within the scatter of the cells");
-      }
-    }
-    return text;
-  }
-  static std::string with_interval(double mean, double half) {
-    return std::isfinite(half) ? fmt::format("{:.2f} +- {:.2f}", mean, half) : fmt::format("{:.2f}", mean);
-  }
-
   void conclude(const std::vector<LayerFigures>& layers) const {
     const auto of_case =
         std::ranges::find_if(descriptions_, [](const auto& one) { return !one.second.empty(); });
@@ -334,8 +279,8 @@ class Measurement {
     }
     text += fmt::format(
         "preferred: {}\nmisfits: {{{}}}\nmean_diameter: {:.10g} m\nscript: {}\nlayers: {}\ncells: {}\nat_edge: {}\n",
-        best().name, misfits, diameter_, coupler::name_of_script(specification_.script), layers.size(),
-        cosserat.found.size(), cosserat.at_edge());
+        preferred(descriptions_), misfits, diameter_, coupler::name_of_script(specification_.script),
+        layers.size(), cosserat.found.size(), cosserat.at_edge());
     for (const int seed : options_.cell_seeds)
       write_file(coupler::length_file_of(options_.directory /
                                          fmt::format("grains{}-seed{}.h5", options_.cell_grains, seed)),
@@ -344,7 +289,7 @@ class Measurement {
       write_file(coupler::length_file_of(packing), text);
     if (options_.quiet) return;
     show(layers);
-    tell(stdout, "\n{}\n{}", comparison(), text);
+    tell(stdout, "\n{}\n{}", comparison_of(descriptions_), text);
     for (const Description& one : descriptions_)
       if (one.at_edge() > 0)
         tell(

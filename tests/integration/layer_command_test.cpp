@@ -54,7 +54,7 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   EXPECT_LE(*measured.plastic_length, 0.5 * measured.mean_diameter * (1 + 1e-5));
 
   EXPECT_NEAR(measured.spread.value(), 4.0 * measured.mean_diameter, 1e-6);
-  for (const char* const words : {"the layers prefer it", "lc and lp", "\n  spread "})
+  for (const char* const words : {"the layers prefer ", "lc and lp", "\n  spread "})
     EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
 
   // All is there: nothing is made again, and the same is found.

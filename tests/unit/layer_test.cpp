@@ -7,6 +7,7 @@
 #include <random>
 
 #include "app/layer/column.hpp"
+#include "app/layer/descriptions.hpp"
 #include "app/layer/grain_layer.hpp"
 #include "app/layer/lengths.hpp"
 #include "app/layer/ruler.hpp"
@@ -165,6 +166,30 @@ TEST(LayerLengths, OneLengthAloneCanBeSought) {
   const FoundLengths found = lengths_like({like(4.0, 0.7, 0.6), like(4.0, 0.7, 0.6)}, elastic);
   EXPECT_NEAR(found.first, 0.4, 1e-12);
   EXPECT_FALSE(found.second.has_value());
+}
+
+Description with_misfits(const std::string& name, const std::vector<double>& misfits) {
+  Description made{name, {1.0}, {}};
+  for (const double misfit : misfits) {
+    made.found.emplace_back();
+    made.found.back().misfit = misfit;
+  }
+  return made;
+}
+
+TEST(LayerDescriptions, OneIsPreferredBeyondTheScatterOfTheCellsAlone) {
+  // Differences 1, 2, 3: 2 +- 2.48; packing by packing 1.0, 1.1, 0.9: 1.0 +- 0.25, however the misfits scatter.
+  const Description least = with_misfits("spread", {1.0, 2.0, 3.0});
+  EXPECT_EQ(preferred({with_misfits("lc", {2.0, 4.0, 6.0}), least}), "undecided");
+  EXPECT_EQ(preferred({with_misfits("lc", {2.0, 3.1, 3.9}), least}), "spread");
+  EXPECT_EQ(
+      preferred({with_misfits("lc", {2.0, 3.1, 3.9}), with_misfits("lc and lp", {2.0, 4.0, 6.0}), least}),
+      "undecided");
+  // One packing of cells has no scatter to be told from.
+  EXPECT_EQ(preferred({with_misfits("lc", {9.0}), with_misfits("spread", {0.1})}), "undecided");
+  EXPECT_NE(comparison_of({with_misfits("lc", {2.0, 3.1, 3.9}), least})
+                .find("the layers prefer this description: spread\n"),
+            std::string::npos);
 }
 
 TEST(LayerLengths, TheIntervalIsStudents) {
