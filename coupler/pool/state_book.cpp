@@ -11,16 +11,10 @@ void StateBook::Pages::remove(const ContentName& name, const State* place) {
   Entry& entry = found->second;
   if (entry.without.place == place) {
     entry.without = {};
-    const std::optional<Origin> done =
-        std::exchange(entry.origin, std::nullopt);  // ends behind the last use of the entry
+    const StatePointer done = std::move(entry.bytes);  // ends behind the last use of the entry
     return;
   }
   if (entry.given.place != place) return;
-  if (!entry.without.state.expired()) {
-    // The bytes have gone, and somebody may still ask for them.
-    entry.given = std::exchange(entry.without, {});
-    return;
-  }
   // The entry may hold the last pointer to another state, whose entry then goes too: that must not
   // happen while the table is at work on this one.
   const auto removed = entries.extract(found);
@@ -62,9 +56,14 @@ StatePointer StateBook::arrived(const StatePointer& state, std::uint64_t worker)
   const StatePointer pointer = watched(state);
   Entry& entry = pages_->entries[state->name()];
   const StatePointer before = entry.given.state.lock();
-  if (before && !before->is_here()) entry.without = entry.given;
+  if (before && !before->is_here()) {
+    entry.without = entry.given;
+    entry.bytes = pointer;
+  }
   entry.given = {pointer, pointer.get()};
   if (entry.home != worker) pages_->release(state->name(), std::exchange(entry.home, worker));
+  const std::optional<Origin> done = std::move(entry.origin);  // ends behind the last use of the entry
+  entry.origin.reset();
   return pointer;
 }
 

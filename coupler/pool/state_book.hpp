@@ -52,10 +52,11 @@ class StateBook {
     const State* place = nullptr;
   };
   struct Entry {
-    Watched given;    ///< the state that is handed out
-    Watched without;  ///< the same without its bytes: somebody has held it since before they came
+    Watched given;       ///< the state that is handed out
+    Watched without;     ///< the same without its bytes: somebody has held it since before they came
+    StatePointer bytes;  ///< keeps them for those holders, who may ask for them
     std::uint64_t home = 0;
-    std::optional<Origin> origin;  ///< of a state on trial, or of `without`
+    std::optional<Origin> origin;  ///< of a state on trial
   };
   struct Pages {
     std::unordered_map<ContentName, Entry, ContentNameHash> entries;

@@ -165,6 +165,18 @@ TEST(StateBook, WhatHasArrivedNeedsNoOrigin) {
   EXPECT_EQ(book.take_released(7), std::vector{start_name});
 }
 
+TEST(StateBook, BytesStayWhileSomebodyHoldsTheStateWithoutThem) {
+  StateBook book;
+  const StatePointer full = state_of(10, 2);
+  StatePointer trial = book.enter(elsewhere(full), 7, {});
+  StatePointer here = book.arrived(full, 7);
+  here = nullptr;
+  EXPECT_NE(book.find_here(full->name()), nullptr);
+  trial = nullptr;
+  EXPECT_EQ(book.find_here(full->name()), nullptr);
+  EXPECT_EQ(book.take_released(7), std::vector{full->name()});
+}
+
 TEST(StateBook, OneKeeperIsEnough) {
   StateBook book;
   const StatePointer full = state_of(10, 2);
