@@ -75,11 +75,8 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
   int turned_count = 0;
   double first = 0.0;
   double one = 0.0;
-  // One at least: a layer whose peak is at its end is not complete, and no reason to end all others' figures.
-  for (double middle = std::min(halfway, end); middle <= end + 0.01 * diameter; middle += 0.5 * diameter) {
-    const Shearing::Frame& from = shearing.frames[nearest(shearing, middle - 0.5 * diameter)];
-    const Shearing::Frame& to = shearing.frames[nearest(shearing, middle + 0.5 * diameter)];
-    if (!(to.displacement > from.displacement)) continue;
+  const auto look_at = [&](const Shearing::Frame& from, const Shearing::Frame& to) {
+    if (!(to.displacement > from.displacement)) return;
     const Eigen::VectorXd heights = 0.5 * (from.heights + to.heights);
     const Band band = band_of(heights, to.along - from.along);
     one = band.thickness / diameter;
@@ -91,8 +88,14 @@ LayerFigures figures_of(const Shearing& shearing, double diameter, double way) {
       ++turned_count;
     }
     ++count;
-  }
-  if (count == 0) throw RunError("the layer has no frames a diameter of displacement apart");
+  };
+  // One at least: a layer whose peak is at its end is not complete, and no reason to end all others' figures.
+  for (double middle = std::min(halfway, end); middle <= end + 0.01 * diameter; middle += 0.5 * diameter)
+    look_at(shearing.frames[nearest(shearing, middle - 0.5 * diameter)],
+            shearing.frames[nearest(shearing, middle + 0.5 * diameter)]);
+  // Nor is one that broke off behind a jump.
+  if (count == 0) look_at(shearing.frames[shearing.frames.size() - 2], shearing.frames.back());
+  if (count == 0) throw RunError("the layer has no frames at different displacements");
   figures.thickness = std::exp(sum / count);
   figures.growth = one / first;
   figures.turning = turned_count > 0 ? turning / turned_count : std::numeric_limits<double>::quiet_NaN();

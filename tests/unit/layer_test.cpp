@@ -112,6 +112,19 @@ TEST(LayerFiguresOf, AJumpThatPassesAPlaceHasTheRatioBetweenItsEnds) {
   EXPECT_NEAR(figures_of(jumping, 0.01, 4.0).halfway, whole.halfway, 1e-3);
 }
 
+TEST(LayerFiguresOf, ALayerThatBrokeOffBehindAJumpHasTheBandOfTheJump) {
+  const Shearing whole = known_layer();
+  Shearing broken;
+  for (const std::size_t k : {0U, 20U, 40U, 60U, 260U}) {  // in hundredths of a diameter
+    broken.displacements.push_back(whole.displacements[k]);
+    broken.ratios.push_back(1e-3 * static_cast<double>(k));
+    broken.frames.push_back(whole.frames[k]);
+  }
+  const LayerFigures figures = figures_of(broken, 0.01, 4.0);
+  EXPECT_FALSE(figures.complete);
+  EXPECT_NEAR(figures.thickness, 4.0, 0.05);
+}
+
 TEST(LayerFiguresOf, ALayerThatHasItsPeakAtItsEndIsNotCompleteAndStillHasABand) {
   Shearing rising = known_layer();
   for (std::size_t k = 0; k < rising.ratios.size(); ++k) rising.ratios[k] = 1e-3 * static_cast<double>(k);
