@@ -62,7 +62,7 @@ void open_packing(const Packing& packing, const std::filesystem::path& file) {
 
 LayerScript layer_script(const std::string& script, const std::string& file) {
   LayerScript made;
-  made.text = "# Made by polargrain layer of the script of a cell, " + file + "\n";
+  made.text = "# Made by polargrain layer of the script of a cell, " + file + "\nsuffix fast\n";
   const auto fail = [&](int line, const std::string& message) { throw InputError({file, line, message}); };
   for (const ScriptCommand& command : commands_of_script(script, file)) {
     std::vector<std::string> words = words_of(command.text);

@@ -24,6 +24,8 @@ class CellLoading {
   }
 
   [[nodiscard]] bool bends() const { return bends_; }
+  /// Row after row, rad/(m s).
+  [[nodiscard]] const std::array<double, 9>& rate() const { return rate_; }
   /// By how much the micro-rotation about an axis grows along a vector of three components, rad/s.
   [[nodiscard]] double spin_along(const double* vector, int axis) const {
     const double* const row = &rate_[static_cast<std::size_t>(3 * axis)];

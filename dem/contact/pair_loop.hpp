@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <cmath>
+#include <cstring>
+#include <memory>
 
+#include "dem/contact/contact_recorder.hpp"
+#include "dem/contact/force_pass.hpp"
 #include "dem/contact/spoken_settings.hpp"
 #include "dem/engine/engine_part.hpp"
 #include "dem/engine/liggghts.hpp"
@@ -12,7 +16,8 @@ namespace polargrain::dem {
 /// pair/gran/local`, rigid bodies, stored contact forces. The frequent work of a cell, the plain force
 /// pass, is done by a leaner loop over the same neighbour list with the same models and the same order of
 /// additions, so that both give the same bits. All calls are inlined into it, which lets the compiler keep a
-/// contact in registers; bench/contact_loop measures what that saves.
+/// contact in registers; bench/contact_loop measures what that saves. Where a script says `suffix fast` and the program
+/// offers a quicker pass, that one does the plain passes.
 template <typename Model>
 class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public SettingsSource {
   using Base = LIGGGHTS::PairStyles::Granular<Model>;
@@ -21,7 +26,12 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
   PairLoop(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::PairGran* pair, int64_t hash)
       : Base(lammps, pair, hash),
         lammps_(*lammps),
-        model_(*part_of<typename Model::LastMade>(*lammps).model) {}
+        model_(*part_of<typename Model::LastMade>(*lammps).model),
+        pair_(*pair),
+        recorder_(contact_recorder(*lammps)),
+        passes_(part_of<ForcePasses>(*lammps)),
+        asks_for_pass_(lammps->suffix_enable != 0 && std::strcmp(lammps->suffix, "fast") == 0) {}
+  ~PairLoop() override { use(nullptr); }
 
   [[nodiscard]] const SpokenSettings& spoken_settings() const override { return model_.spoken_settings(); }
 
@@ -30,6 +40,9 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
     // Rare features that only show as fixes; looked up once a run, not once a step.
     rare_fixes_ = lammps_.modify->n_fixes_style("insert/stream/predefined") > 0 ||
                   lammps_.modify->n_fixes_style("relax_contacts") > 0;
+    // Parameters may be others than in the run before.
+    if (pass_) pass_->hand_back();
+    if (asks_for_pass_ && passes_.make) use(passes_.make(lammps_, pair_));
   }
 
   void compute_force(LAMMPS_NS::PairGran* pair, int eflag, int vflag, int addflag) override {
@@ -37,6 +50,11 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
         !eflag && !vflag && !(pair->cpl() && addflag) && !pair->fr_pair() && !pair->storeSumDelta() &&
         !pair->storeContactForces() && !pair->storeContactForcesStress() && !pair->store_sum_normal_force() &&
         !lammps_.force->newton_pair && !rare_fixes_ && pair->computeflag() && lammps_.atom->rmass;
+    if (plain && pass_ && !recorder_.on) {
+      pass_->add_forces(*pair);
+      return;
+    }
+    if (pass_) pass_->hand_back();
     if (plain)
       plain_pass(*pair);
     else
@@ -44,6 +62,12 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
   }
 
  private:
+  void use(std::unique_ptr<ForcePass> pass) {
+    if (pass_ && passes_.in_use == pass_.get()) passes_.in_use = nullptr;
+    pass_ = std::move(pass);
+    if (pass_) passes_.in_use = pass_.get();
+  }
+
   /// One long function: values kept at hand over all pairs would be handed from part to part, once a contact.
   __attribute__((flatten)) void plain_pass(LAMMPS_NS::PairGran& pair) {
     using LIGGGHTS::ContactModels::ForceData;
@@ -141,6 +165,11 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
 
   LAMMPS_NS::LAMMPS& lammps_;
   Model& model_;  // the stock loop's own, which it keeps private
+  LAMMPS_NS::PairGran& pair_;
+  const ContactRecorder& recorder_;
+  ForcePasses& passes_;  // it lives as long as the engine
+  bool asks_for_pass_;
+  std::unique_ptr<ForcePass> pass_;
   bool rare_fixes_ = false;
 };
 

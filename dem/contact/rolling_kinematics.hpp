@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "dem/contact/closing_factor.hpp"
+#include "dem/contact/points_up.hpp"
 
 namespace polargrain::dem {
 
@@ -29,12 +30,6 @@ inline Vector cross(const double* a, const double* b) {
 /// R* = r_i r_j / (r_i + r_j); a wall is a grain of infinite radius.
 inline double reduced_radius(const LIGGGHTS::ContactModels::SurfacesIntersectData& contact) {
   return contact.is_wall ? contact.radi : contact.radi * contact.radj / (contact.radi + contact.radj);
-}
-
-/// One of the two directions of a branch between a grain and its own image, told from its components alone.
-inline bool points_up(const double* delta) {
-  if (delta[1] != 0.0) return delta[1] > 0.0;
-  return delta[0] > 0.0 || (delta[0] == 0.0 && delta[2] > 0.0);
 }
 
 /// +1 where i is the grain A of docs/theory/grains.md, D, -1 where it is B: A is the one with the lower id. The

@@ -177,6 +177,10 @@ DiscSelection sphere_combination(LAMMPS& lammps) {
   // Spheres are counted as in the packing.
   for (int k = 0; k < lammps.atom->nlocal; ++k)
     if (lammps.atom->tag[k] != k + 1) return {std::nullopt, "grains that the engine has reordered"};
+  return sphere_models(lammps);
+}
+
+DiscSelection sphere_models(LAMMPS& lammps) {
   DiscSelection selection = disc_models(lammps);
   // At the limits of their springs these dashpots jump, and there the loop differs from LIGGGHTS's by more than rounding.
   if (selection.combination && selection.combination->settings.rolling_damped)

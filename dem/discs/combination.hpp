@@ -34,6 +34,9 @@ struct DiscSelection {
 /// The contact models of an initialised engine, where the loop over discs knows them.
 DiscSelection disc_models(LAMMPS_NS::LAMMPS& lammps);
 
+/// The same for the passes over spheres, whatever the dimension of the scene.
+DiscSelection sphere_models(LAMMPS_NS::LAMMPS& lammps);
+
 /// Whether the scene of an initialised engine can be stepped by the loop over discs: a plane scene of one of
 /// the combinations above that does nothing but integrate its grains.
 DiscSelection disc_combination(LAMMPS_NS::LAMMPS& lammps);

@@ -282,7 +282,10 @@ double FixBiaxial::area() const {
 
 void FixBiaxial::measure_unbalanced() {
   double sum = 0.0;
-  for (int k = 0; k < atom->nlocal; ++k) sum += std::hypot(atom->f[k][0], atom->f[k][1]);
+  for (int k = 0; k < atom->nlocal; ++k) {
+    const double* const f = atom->f[k];
+    sum += std::sqrt(f[0] * f[0] + f[1] * f[1]);
+  }
   unbalanced_ = sum / atom->nlocal / (pressure_ * thickness_ * mean_diameter_);
 }
 

@@ -110,7 +110,7 @@ void FixLayer::hold_plates() {
     double* const f = atom->f[k];
     const bool up = (atom->mask[k] & upper_) != 0;
     if (!up && (atom->mask[k] & lower_) == 0) {
-      unbalanced += std::hypot(f[0], f[1]);
+      unbalanced += std::sqrt(f[0] * f[0] + f[1] * f[1]);
       ++free;
       continue;
     }

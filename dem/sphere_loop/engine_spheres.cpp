@@ -6,6 +6,7 @@
 
 #include "common/error.hpp"
 #include "dem/box/engine_grains.hpp"
+#include "dem/sphere_loop/engine_histories.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
 
 namespace polargrain::dem {
@@ -13,28 +14,6 @@ namespace polargrain::dem {
 namespace {
 
 using PlaceInEngine = Eigen::Map<const Eigen::Vector3d>;
-
-/// Which of the engine's values of a contact a spring of the loop is, in the order in which the models ask for them:
-/// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has no such place.
-std::array<int, kSphereSprings> history_places(const DiscCombination& laws) {
-  std::array<int, kSphereSprings> places{};
-  places.fill(-1);
-  int next = 0;
-  const auto put = [&places, &next](int spring, int count) {
-    for (int k = 0; k < count; ++k) places[spring + k] = next++;
-  };
-  put(kSliding, 3);
-  if (laws.rolling != RollingLaw::off) put(kBending, 3);
-  if (laws.settings.rolling_force && !laws.settings.symmetric) put(kRollingDisplacement, 3);
-  if (laws.rolling == RollingLaw::li_chu && laws.settings.torsion) put(kTorsion, 1);
-  return places;
-}
-
-int history_values(const DiscCombination& laws) {
-  int values = 0;
-  for (const int place : history_places(laws)) values = std::max(values, place + 1);
-  return values;
-}
 
 /// The image of the second sphere that is nearest to the first. @param base upper triangular
 SpaceLattice nearest_image(const Eigen::Vector3d& between, const Eigen::Matrix3d& base) {

@@ -23,17 +23,6 @@ constexpr double kReachMargin = 1.01;
 using Place = Eigen::Map<Eigen::Vector3d>;
 using ConstPlace = Eigen::Map<const Eigen::Vector3d>;
 
-SphereKernels::Pass pass_of(const SphereKernels& kernels, const DiscCombination& laws) {
-  int rolling = static_cast<int>(laws.rolling);
-  if (laws.rolling == RollingLaw::li_chu && laws.settings.torsion) ++rolling;
-  return kernels.pass[laws.normal == NormalLaw::hertz ? 1 : 0][static_cast<int>(laws.tangential)][rolling]
-                     [is_bare(laws) ? 1 : 0];
-}
-
-SphereSettings settings_of(const LawSettings& on) {
-  return {on.damped, on.limit_force, on.rolling_force, on.symmetric, on.torsion};
-}
-
 void put_matrix(double* nine, const Eigen::Matrix3d& matrix) {
   Eigen::Map<Eigen::Matrix3d> to(nine);
   to = matrix;
@@ -47,7 +36,7 @@ void put_vector(double* three, const Eigen::Vector3d& vector) {
 SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
     : spheres_(std::move(spheres)),
       kernels_(kernels),
-      pass_(pass_of(kernels, spheres_.combination)),
+      pass_(kernel_of(kernels, spheres_.combination)),
       springs_(sphere_spring_count(spheres_.combination)) {
   const auto n = static_cast<std::size_t>(count());
   grains_.assign((n + 2) * kGrainStride, 0.0);
@@ -65,7 +54,7 @@ SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
   }
   grains_[(n + 1) * kGrainStride] = 1.0;  // two places without a grain lie apart
   skin_ = kSphereSkin * mean;
-  list_.spring_count = former_.spring_count = is_bare(spheres_.combination) ? springs_ : kSphereSprings;
+  list_.spring_count = former_.spring_count = springs_in_pass(spheres_.combination);
   listed_places_.resize(n);
   contacts_.reserve(4 * n);
 }
@@ -127,30 +116,16 @@ void SphereBox::go_on(const BoxPath<3>& path, double damping_rate, const Loading
 }
 
 void SphereBox::compute_forces(bool advance, bool record) {
-  SpherePass pass{};
+  SpherePass pass = pass_over(list_, spheres_.combination);
   pass.grains = grains_.data();
   pass.forces = forces_.data();
   pass.images = images_.data();
-  pass.first = list_.first_row.data();
-  pass.second = list_.second_row.data();
-  pass.image = list_.image_row.data();
-  pass.radius_first = list_.radius_first.data();
-  pass.radius_second = list_.radius_second.data();
-  for (int k = 0; k < kSphereConstants; ++k) pass.constants[k] = list_.constants[k].data();
-  for (int k = 0; k < kSphereSprings; ++k) pass.springs[k] = list_.springs[k].data();
-  pass.touching = list_.touching;
-  pass.interior = list_.interior;
-  pass.touching_across = list_.touching_across;
-  pass.count = list_.count;
-  pass.gaps = list_.gaps.data();
-  pass.active = list_.active.data();
   pass.reach = reach_;
   pass.step = time_step_;
   pass.advance = advance;
   const Eigen::Matrix3d by_rows = motion_.curvature_rate().transpose();
   put_matrix(pass.curvature_rate, by_rows);
   pass.bends = !by_rows.isZero(0.0);
-  pass.settings = settings_of(spheres_.combination.settings);
   if (record) {
     pass.records = records_.data();
     for (int block = 0; block < list_.count / kBlock; ++block)

@@ -96,6 +96,37 @@ int sphere_spring_count(const DiscCombination& combination) {
   return combination.rolling == RollingLaw::li_chu && on.torsion ? kTorsion + 1 : kTorsion;
 }
 
+int springs_in_pass(const DiscCombination& combination) {
+  return is_bare(combination) ? sphere_spring_count(combination) : kSphereSprings;
+}
+
+SphereKernels::Pass kernel_of(const SphereKernels& kernels, const DiscCombination& combination) {
+  int rolling = static_cast<int>(combination.rolling);
+  if (combination.rolling == RollingLaw::li_chu && combination.settings.torsion) ++rolling;
+  return kernels.pass[combination.normal == NormalLaw::hertz ? 1 : 0]
+                     [static_cast<int>(combination.tangential)][rolling][is_bare(combination) ? 1 : 0];
+}
+
+SpherePass pass_over(SphereList& list, const DiscCombination& combination) {
+  SpherePass pass{};
+  pass.first = list.first_row.data();
+  pass.second = list.second_row.data();
+  pass.image = list.image_row.data();
+  pass.radius_first = list.radius_first.data();
+  pass.radius_second = list.radius_second.data();
+  for (int k = 0; k < kSphereConstants; ++k) pass.constants[k] = list.constants[k].data();
+  for (int k = 0; k < kSphereSprings; ++k) pass.springs[k] = list.springs[k].data();
+  pass.touching = list.touching;
+  pass.interior = list.interior;
+  pass.touching_across = list.touching_across;
+  pass.count = list.count;
+  pass.gaps = list.gaps.data();
+  pass.active = list.active.data();
+  const LawSettings& on = combination.settings;
+  pass.settings = {on.damped, on.limit_force, on.rolling_force, on.symmetric, on.torsion};
+  return pass;
+}
+
 void fill_constants(const Spheres& spheres, SphereList& list) {
   const std::array<bool, kSphereConstants> read = constants_read(spheres.combination);
   for (int k = 0; k < kSphereConstants; ++k)

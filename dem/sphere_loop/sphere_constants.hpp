@@ -25,6 +25,15 @@ bool is_bare(const DiscCombination& combination);
 /// Springs of a contact that mean something, the first ones of SphereSpring.
 int sphere_spring_count(const DiscCombination& combination);
 
+/// Springs of a candidate that the kernel of a combination may touch.
+int springs_in_pass(const DiscCombination& combination);
+
+/// The kernel for the contacts of a combination.
+SphereKernels::Pass kernel_of(const SphereKernels& kernels, const DiscCombination& combination);
+
+/// A pass over the candidates of a list; grains, forces, images, step and reach are the caller's.
+SpherePass pass_over(SphereList& list, const DiscCombination& combination);
+
 /// The constants of the candidates of a list (SphereConstant).
 void fill_constants(const Spheres& spheres, SphereList& list);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dem/box/lost_grains.hpp"
+#include "dem/contact/points_up.hpp"
 
 namespace polargrain::dem {
 
@@ -128,17 +129,6 @@ int image_number(std::vector<SpaceLattice>& images, const SpaceLattice& wanted) 
   return number;
 }
 
-/// A sphere that touches its own image sees it on both sides; one of them is counted. @param delta from the image
-bool points_up(const Eigen::Vector3d& delta) {
-  if (delta.y() != 0.0) return delta.y() > 0.0;
-  return delta.x() > 0.0 || (delta.x() == 0.0 && delta.z() > 0.0);
-}
-
-struct Pair {
-  int first = 0, second = 0, image = 0;
-  double gap = 0.0;  // m
-};
-
 /// Finds the pairs of the four zones.
 class PairSearch {
  public:
@@ -151,7 +141,7 @@ class PairSearch {
           for (int m = own.begin; m < own.end; ++m) around(m, x, y, z);
         }
   }
-  std::array<std::vector<Pair>, 4> zones;
+  SphereZones zones;
 
  private:
   /// Each pair is seen from one of its two spheres: from that with the lower bin in z, then y, then x.
@@ -184,7 +174,7 @@ class PairSearch {
     const SpaceLattice& away = bins_.homes[second];
     const SpaceLattice& copy = all.copy[k];
     SpaceLattice image{copy.p + home.p - away.p, copy.q + home.q - away.q, copy.r + home.r - away.r};
-    if (second < first || (second == first && !points_up(delta))) {
+    if (second < first || (second == first && !points_up(delta.data()))) {
       std::swap(first, second);
       image = {-image.p, -image.q, -image.r};
     }
@@ -200,18 +190,18 @@ class PairSearch {
 };
 
 /// Sorts by classes of gaps, each as wide as 1/64 of the skin, and gives each pair the least gap of its class.
-void sort_by_gap(std::vector<Pair>& pairs, double skin) {
+void sort_by_gap(std::vector<SpherePair>& pairs, double skin) {
   constexpr int kClasses = 64;
   const auto class_of = [skin](double gap) {
     return std::clamp(static_cast<int>(gap * kClasses / skin), 0, kClasses - 1);
   };
   std::array<std::size_t, kClasses + 1> starts{};
-  for (const Pair& pair : pairs) ++starts[static_cast<std::size_t>(class_of(pair.gap)) + 1];
+  for (const SpherePair& pair : pairs) ++starts[static_cast<std::size_t>(class_of(pair.gap)) + 1];
   for (int k = 0; k < kClasses; ++k) starts[k + 1] += starts[k];
-  std::vector<Pair> sorted(pairs.size());
-  for (const Pair& pair : pairs) {
+  std::vector<SpherePair> sorted(pairs.size());
+  for (const SpherePair& pair : pairs) {
     const int class_number = class_of(pair.gap);
-    Pair& place = sorted[starts[static_cast<std::size_t>(class_number)]++];
+    SpherePair& place = sorted[starts[static_cast<std::size_t>(class_number)]++];
     place = pair;
     place.gap = class_number * skin / kClasses;
   }
@@ -233,20 +223,24 @@ void SphereList::add(int one, int other, const SpaceLattice& lattice) {
 }
 
 void SphereList::find(const double* rows, int how_many, const Eigen::Matrix3d& base, double skin) {
-  grains = how_many;
   double largest = 0.0;
-  for (int k = 0; k < grains; ++k) largest = std::max(largest, rows[k * kGrainStride + 3]);
+  for (int k = 0; k < how_many; ++k) largest = std::max(largest, rows[k * kGrainStride + 3]);
   images.assign(1, SpaceLattice{});
-  const BinsOfSpheres bins(rows, grains, base, 2.0 * largest + skin);
-  auto zones = std::move(PairSearch(bins, skin, images).zones);
+  const BinsOfSpheres bins(rows, how_many, base, 2.0 * largest + skin);
+  SphereZones zones = std::move(PairSearch(bins, skin, images).zones);
+  for (const std::size_t zone : {1, 3}) sort_by_gap(zones[zone], skin);
+  take(std::move(zones), rows, how_many);
+}
+
+void SphereList::take(SphereZones zones, const double* rows, int how_many) {
+  grains = how_many;
   first.clear();
   second.clear();
   image.clear();
   gaps.clear();
   for (std::size_t zone = 0; zone < zones.size(); ++zone) {
-    std::vector<Pair>& pairs = zones[zone];
-    if (zone % 2 == 1) sort_by_gap(pairs, skin);
-    while (pairs.size() % kBlock != 0) pairs.push_back({grains, grains + 1, 0, skin});
+    std::vector<SpherePair>& pairs = zones[zone];
+    while (pairs.size() % kBlock != 0) pairs.push_back({grains, grains + 1, 0, 0.0});
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       first.push_back(pairs[k].first);
       second.push_back(pairs[k].second);

@@ -24,6 +24,14 @@ struct SpaceLattice {
 /// @throws RunError when it is so far away, or nowhere, that this cannot be told: the grains are lost
 SpaceLattice copy_at(const Eigen::Matrix3d& inverse, const Eigen::Vector3d& place);
 
+/// Two spheres that may touch. @param gap m
+struct SpherePair {
+  int first = 0, second = 0, image = 0;
+  double gap = 0.0;
+};
+/// Pairs in the zones of a SpherePass; those that are near in order of their gaps.
+using SphereZones = std::array<std::vector<SpherePair>, 4>;
+
 /// Pairs of spheres of a periodic box whose surfaces are nearer than a skin, each pair once, in the zones of
 /// SpherePass. The order depends on the positions alone.
 struct SphereList {
@@ -44,6 +52,9 @@ struct SphereList {
   /// @param rows of the grains, places and radii (kGrainStride) @param base columns are the base vectors, m
   /// @param skin largest gap taken, m @throws RunError as copy_at
   void find(const double* rows, int grains, const Eigen::Matrix3d& base, double skin);
+  /// Takes pairs that are known; springs are zero. Each zone is filled up with dummies.
+  /// @param rows of the grains, places and radii (kGrainStride)
+  void take(SphereZones zones, const double* rows, int grains);
   /// Takes over the springs of the pairs that touch and that another list has too.
   void take_springs(const SphereList& other);
   /// Appends one more pair, in no zone: for lists that only hand springs over.

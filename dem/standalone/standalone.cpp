@@ -16,6 +16,7 @@
 #include "dem/contact/contact_library.hpp"
 #include "dem/engine/engine.hpp"
 #include "dem/engine/liggghts.hpp"
+#include "dem/sphere_loop/engine_pass.hpp"
 
 namespace polargrain::dem {
 
@@ -85,6 +86,7 @@ std::vector<std::string> take_contact_libraries(std::vector<char*>& words) {
 void run_script(std::vector<char*> words, const std::function<void()>& add_models) {
   const std::vector<std::string> libraries = take_contact_libraries(words);
   Engine engine(static_cast<int>(words.size()), words.data());
+  offer_fast_pass(engine.lammps());
   if (add_models) add_models();
   for (const std::string& library : libraries) add_contact_library({library, {}});
   running_engine = &engine.lammps();

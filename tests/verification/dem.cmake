@@ -27,5 +27,6 @@ if(TARGET polargrain_dem)
   endforeach()
   polargrain_tests(verification polargrain_contact_models MAIN support/engine_main.cpp
     verification/dem_masses_test.cpp
-    verification/dem_time_step_test.cpp)
+    verification/dem_time_step_test.cpp
+    verification/engine_pass_test.cpp)
 endif()
