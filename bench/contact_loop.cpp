@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nanoseconds a particle and time step of the contact models, side by side: the stock program `liggghts`, the
-// same stock models in polargrain-liggghts (with the loop over pairs that cells use), and this project's
-// models. Best of several rounds of processor time, the variants taking turns, because the machine is not
+// same stock models in polargrain-liggghts, and this project's models; both with the loop over pairs and with the kernels of
+// `suffix fast`. Best of several rounds of processor time, the variants taking turns, because the machine is not
 // alone.
 //
 //   build/release/bench/contact_loop      from the root of the project; about a minute
@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -17,7 +18,6 @@
 namespace {
 
 struct Variant {
-  std::string what;
   std::string program;
   std::string models;
   double best = 1e300;  ///< ns a particle and step
@@ -27,8 +27,7 @@ constexpr int kRounds = 3;
 constexpr int kSteps = 1000;
 constexpr int kDiscs = 1600;  // bench/contact_loop.in
 
-/// Processor time of the program's run, s; negative when it failed. Other programs on the machine count
-/// little.
+/// Processor time of the program's run, s; negative when it failed. Other programs on the machine count little.
 double processor_seconds(const Variant& variant, int steps) {
   const auto spent = [] {
     rusage usage{};
@@ -75,23 +74,30 @@ int main() {
       {"hertz, li_chu, rolling li_chu", "hertz tangential li_chu rolling_friction li_chu", false},
       {"hooke/radii, li_chu", "hooke/radii tangential li_chu", false}};
   const bool have_stock = std::system("command -v liggghts > /dev/null") == 0;
-  std::vector<Variant> variants;
-  for (const Row& row : rows) {
-    if (row.stock && have_stock) variants.push_back({"liggghts: " + row.what, "liggghts", row.models});
-    variants.push_back({"polargrain-liggghts: " + row.what, POLARGRAIN_LIGGGHTS, row.models});
-  }
+  const std::string own = POLARGRAIN_LIGGGHTS;
+  std::vector<std::array<Variant, 3>> table;
+  for (const Row& row : rows)
+    table.push_back({Variant{row.stock && have_stock ? "liggghts" : "", row.models}, Variant{own, row.models},
+                     Variant{own + " -suffix fast", row.models}});
   for (int round = 0; round < kRounds; ++round)
-    for (Variant& variant : variants) {
-      const double time = nanoseconds(variant);
-      if (time < 0.0) {
-        fmt::print(stderr, "contact_loop: '{}' did not run; start it from the root of the project\n",
-                   variant.what);
-        return 1;
+    for (std::array<Variant, 3>& variants : table)
+      for (Variant& variant : variants) {
+        if (variant.program.empty()) continue;
+        const double time = nanoseconds(variant);
+        if (time < 0.0) {
+          fmt::print(stderr,
+                     "contact_loop: '{}' did not run with {}; start it from the root of the project\n",
+                     variant.models, variant.program);
+          return 1;
+        }
+        variant.best = std::min(variant.best, time);
       }
-      variant.best = std::min(variant.best, time);
-    }
-  fmt::print("{:60} {:>8} {:>8}\n", "discs, 3 contacts each", "ns", "ratio");
-  for (const Variant& variant : variants)
-    fmt::print("{:60} {:8.1f} {:8.2f}\n", variant.what, variant.best, variant.best / variants.front().best);
+  fmt::print("models,`liggghts`,`polargrain-liggghts`,`-suffix fast`,ratio of the two\n");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& [stock, plain, fast] = table[k];
+    fmt::print("\"{}\",{},{:.0f},{:.0f},{:.2f}\n", rows[k].what,
+               stock.program.empty() ? "" : fmt::format("{:.0f}", stock.best), plain.best, fast.best,
+               fast.best / plain.best);
+  }
   return 0;
 }
