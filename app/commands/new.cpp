@@ -10,6 +10,7 @@
 #include "common/standard_streams.hpp"
 #include "common/write_file.hpp"
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/element_limits.hpp"
 #include "coupler/case/quantity.hpp"
 #include "fem/mesh/gmsh.hpp"
 
@@ -162,6 +163,11 @@ NewCase new_case(const NewOptions& options, const NewKind& kind) {
   if (!options.elements.empty()) {
     what.columns = options.elements[0];
     what.rows = options.elements[1];
+    const double across = what.spheres ? what.columns : 1.0;
+    if (const std::string fault =
+            coupler::too_many_elements(what.spheres ? 3 : 2, across * what.columns * what.rows);
+        !fault.empty())
+      throw InputError({"", 0, fmt::format("new: --elements {} {}: {}", what.columns, what.rows, fault)});
   }
   if (!options.scheme.empty()) what.scheme = options.scheme;
   what.rolling = options.rolling;

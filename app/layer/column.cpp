@@ -27,6 +27,11 @@ int rows_of(const ColumnSpecification& column) {
   return 2 * column.elements + 1;
 }
 
+/// Whether nodes have micro-rotations.
+bool turns(const ColumnSpecification& column) {
+  return column.spread == 0.0;
+}
+
 double width_of(const ColumnSpecification& column) {
   return column.height / column.elements;
 }
@@ -40,14 +45,13 @@ std::string column_case(const ColumnSpecification& column) {
   for (int row = 0; row <= last; ++row) {
     levels += fmt::format("{}y{}: {:.17g}", row == 0 ? "" : ", ", row, column.height * row / last);
     monitors += fmt::format("  u{0}: {{on: y{0}, displacement: u1}}\n", row);
-    if (column.spread == 0.0) monitors += fmt::format("  w{0}: {{on: y{0}, displacement: w}}\n", row);
+    if (turns(column)) monitors += fmt::format("  w{0}: {{on: y{0}, displacement: w}}\n", row);
   }
   const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
   const double grow = (column.way + kBeforePeak) * column.diameter;
-  const bool turns = column.spread == 0.0;
   std::string text =
       "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\n";
-  if (!turns)
+  if (!turns(column))
     text += fmt::format("continuum: {{kind: cauchy, spread: {:.17g}, hold: [bottom, top]}}\n", column.spread);
   text += "mesh:\n";
   text +=
@@ -55,22 +59,23 @@ std::string column_case(const ColumnSpecification& column) {
                   width_of(column), column.height, column.elements, levels);
   text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}", column.script.string(),
                       column.packing.string());
-  if (turns) {
+  if (turns(column)) {
     text += fmt::format(", lc: {:.17g}", column.internal_length);
     text += column.plastic_length ? fmt::format(", lp: {:.17g}", *column.plastic_length) : ", lp: none";
   }
   text += fmt::format(
       "}}\nregions: {{all: sand}}\nboundary:\n  - {{on: left, tie: right}}\n  - {{on: bottom, fix: [u1, u2{}]}}\n",
-      turns ? ", w" : "");
+      turns(column) ? ", w" : "");
   text += fmt::format("  - {{on: top, {}move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
-                      turns ? "fix: [w], " : "", column.height, column.pressure);
+                      turns(column) ? "fix: [w], " : "", column.height, column.pressure);
   text += fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
   text += fmt::format(
       "    - {{measure: {{on: y{}, from: y{}, displacement: u1}}, grow: {:.17g}, count: {}}}\n", last - below,
       below, grow, static_cast<int>(std::ceil(kStepsOfDiameter * (column.way + kBeforePeak))));
   text += "  cut: 12\n  noise: 2\n  acceleration: 5\n";
   // A spread slip sets many boxes in motion at once: jumps are more, and what does not balance soon is better cut.
-  text += turns ? "  tolerance: 1e-2\n  jumps: 20\n" : "  tolerance: 2e-2\n  jumps: 100\n  iterations: 15\n";
+  text += turns(column) ? "  tolerance: 1e-2\n  jumps: 20\n"
+                        : "  tolerance: 2e-2\n  jumps: 100\n  iterations: 15\n";
   text += "monitors:\n";
   text += "  shear_force: {on: top, reaction: u1}\n  displacement: {on: top, displacement: u1}\n" + monitors;
   text += "output: {every: 1000, points: no, table: [displacement, shear_force]}\n";
@@ -110,8 +115,8 @@ Shearing read_column(const ColumnSpecification& column, const std::filesystem::p
     frame.rotations.resize(rows);
     for (int row = 0; row < rows; ++row) {
       frame.along[row] = history.number(k, history.column(fmt::format("u{}", row)));
-      frame.rotations[row] = column.spread == 0.0 ? history.number(k, history.column(fmt::format("w{}", row)))
-                                                  : std::numeric_limits<double>::quiet_NaN();
+      frame.rotations[row] = turns(column) ? history.number(k, history.column(fmt::format("w{}", row)))
+                                           : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return shearing;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 
@@ -52,7 +53,7 @@ class Measurement {
   int measure() {
     const std::vector<LayerFigures> layers = shear_layers();
     CsvFile table(options_.directory / "columns.csv",
-                  joined({"cells", "lc", "lp", "spread"}, figure_names(), {"complete"}));
+                  joined({{"cells", "lc", "lp", "spread"}, figure_names(), {"complete"}}));
     for (const int seed : options_.cell_seeds)
       for (Description& description : descriptions_)
         description.found.push_back(lengths_like(layers, columns(description, seed, table)));
@@ -68,6 +69,12 @@ class Measurement {
   }
 
  private:
+  /// The packing of the cells of columns. @param diameter mean one, m
+  struct Cells {
+    std::filesystem::path packing;
+    double diameter = 0.0;
+  };
+
   /// A script with what it includes is written as cell.in, which the script itself may be called.
   void check_script_is_elsewhere() const {
     const std::filesystem::path written = options_.directory / "cell.in";
@@ -92,12 +99,10 @@ class Measurement {
     for (const auto& [name, value] : LayerFigures{}.values()) names.push_back(name);
     return names;
   }
-  static std::vector<std::string> joined(std::vector<std::string> first,
-                                         const std::vector<std::string>& second,
-                                         const std::vector<std::string>& third) {
-    first.insert(first.end(), second.begin(), second.end());
-    first.insert(first.end(), third.begin(), third.end());
-    return first;
+  static std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> parts) {
+    std::vector<std::string> all;
+    for (const std::vector<std::string>& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
   }
   static std::vector<std::string> cells_of(const LayerFigures& figures) {
     std::vector<std::string> cells;
@@ -136,7 +141,7 @@ class Measurement {
 
   std::vector<LayerFigures> shear_layers() {
     std::vector<LayerFigures> layers;
-    CsvFile table(options_.directory / "layers.csv", joined({"seed"}, figure_names(), {"complete"}));
+    CsvFile table(options_.directory / "layers.csv", joined({{"seed"}, figure_names(), {"complete"}}));
     for (const int seed : options_.seeds) {
       const Packing grains = read_packing(packing(options_.grains, seed));
       diameter_ = 2.0 * grains.mean_radius();
@@ -149,7 +154,7 @@ class Measurement {
                   folder, tools_, options_.quiet);
       layers.push_back(figures_of(read_layer(folder, specification_.pressure), diameter_, options_.way));
       table.add(
-          joined({std::to_string(seed)}, cells_of(layers.back()), {layers.back().complete ? "1" : "0"}));
+          joined({{std::to_string(seed)}, cells_of(layers.back()), {layers.back().complete ? "1" : "0"}}));
     }
     table.write();
     const auto incomplete = std::ranges::count_if(layers, [](const auto& layer) { return !layer.complete; });
@@ -163,7 +168,7 @@ class Measurement {
   }
 
   Candidates columns(const Description& description, int seed, CsvFile& table) {
-    const std::filesystem::path cells = cells_of_column(seed);
+    const Cells& cells = cells_of_column(seed);
     Candidates made{description.first, description.second, {}};
     for (const double first : made.first) {
       made.figures.emplace_back();
@@ -176,18 +181,21 @@ class Measurement {
   }
 
   /// The packing of the cells of columns, made once.
-  std::filesystem::path cells_of_column(int seed) {
+  const Cells& cells_of_column(int seed) {
     const auto [place, is_new] = cells_.try_emplace(seed);
-    if (is_new) place->second = packing(options_.cell_grains, seed);
+    if (is_new) {
+      place->second.packing = packing(options_.cell_grains, seed);
+      place->second.diameter = 2.0 * read_packing(place->second.packing).mean_radius();
+    }
     return place->second;
   }
 
-  LayerFigures column(const Description& description, const std::filesystem::path& cells, double first,
+  LayerFigures column(const Description& description, const Cells& cells, double first,
                       std::optional<double> second, int seed, CsvFile& table) {
-    const double diameter = 2.0 * read_packing(cells).mean_radius();
+    const double diameter = cells.diameter;
     ColumnSpecification column;
     column.script = "cell.in";
-    column.packing = cells.filename();
+    column.packing = cells.packing.filename();
     column.pressure = specification_.pressure;
     column.diameter = diameter;
     column.height = options_.column_height * diameter;
@@ -205,8 +213,10 @@ class Measurement {
     run_column(column, folder, options_.workers, options_.scripts);
     const LayerFigures figures = figures_of(read_column(column, folder), diameter, options_.way);
     if (!figures.complete) ++incomplete_columns_;
-    table.add(joined(joined({std::to_string(seed)}, lengths_in_table(description, first, second, "{:g}"), {}),
-                     cells_of(figures), {figures.complete ? "1" : "0"}));
+    table.add(joined({{std::to_string(seed)},
+                      lengths_in_table(description, first, second, "{:g}"),
+                      cells_of(figures),
+                      {figures.complete ? "1" : "0"}}));
     table.write();
     return figures;
   }
@@ -233,11 +243,11 @@ class Measurement {
     for (const Description& description : descriptions_)
       for (std::size_t k = 0; k < description.found.size(); ++k) {
         const FoundLengths& one = description.found[k];
-        table.add(joined({description.name, std::to_string(options_.cell_seeds[k])},
-                         lengths_in_table(description, one.first, one.second, "{:.4g}"),
-                         {fmt::format("{:.4g}", one.misfit), one.at_edge ? "1" : "0",
-                          fmt::format("{:.4g}", one.figures.halfway), fmt::format("{:.4g}", one.figures.end),
-                          fmt::format("{:.4g}", one.figures.thickness)}));
+        table.add(joined({{description.name, std::to_string(options_.cell_seeds[k])},
+                          lengths_in_table(description, one.first, one.second, "{:.4g}"),
+                          {fmt::format("{:.4g}", one.misfit), one.at_edge ? "1" : "0",
+                           fmt::format("{:.4g}", one.figures.halfway), fmt::format("{:.4g}", one.figures.end),
+                           fmt::format("{:.4g}", one.figures.thickness)}}));
       }
     table.write();
   }
@@ -317,7 +327,7 @@ class Measurement {
   PackingSpecification specification_;
   LayerScript script_;
   std::vector<Description> descriptions_;
-  std::map<int, std::filesystem::path> cells_;  ///< packings, by their seeds
+  std::map<int, Cells> cells_;  ///< by their seeds
   Jobs jobs_;
   double diameter_ = 0.0;  ///< mean one of the grains, m
   std::size_t incomplete_columns_ = 0;

@@ -33,6 +33,12 @@ def interval(values):
     return "-" if math.isnan(half) else f"{mean:.3g} +- {half:.2g}"
 
 
+def difference_of_means(first, second):
+    """Mean of the first less mean of the second, and half of its interval (each group's own added in squares), as text."""
+    (mean, half), (other, half_of_other) = mean_and_half(first), mean_and_half(second)
+    return f"{mean - other:+.3f} +- {math.hypot(half, half_of_other):.3f}"
+
+
 def markdown(title, groups, keys):
     """A Markdown table: a row a group, of a list of figures (dictionaries), one a packing; a column a key."""
     lines = [f"| {title} | n | " + " | ".join(keys) + " |", "|" + "---|" * (len(keys) + 2)]

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <sstream>
+#include <vector>
 
 #include "common/state.hpp"
 #include "coupler/case/section.hpp"
@@ -68,17 +69,19 @@ std::optional<MeasuredLength> length_beside(const GrainsToMeasure& grains,
   }
   try {
     const MeasuredLength measured = read_measured_length(file);
+    std::vector<std::string> faults;
     if (std::abs(measured.mean_diameter - grains.mean_diameter) > kSameGrains * grains.mean_diameter)
-      fault(fmt::format(
+      faults.push_back(fmt::format(
           "{} is of grains of {:.4g} mm, the grains of the packing have {:.4g} mm; measure with these "
           "grains, or give a length",
           name, 1e3 * measured.mean_diameter, 1e3 * grains.mean_diameter));
     if (!grains.script.empty() && measured.script != name_of_script(grains.script))
-      fault(fmt::format(
+      faults.push_back(fmt::format(
           "{} was measured under another contact law than {} has; measure with this script, or give a "
           "length",
           name, grains.script_name));
-    return measured;
+    if (faults.empty()) return measured;
+    for (const std::string& one : faults) fault(one);
   } catch (const InputError& error) {
     for (const Fault& one : error.faults()) fault(fmt::format("{}:{}: {}", name, one.line, one.message));
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "coupler/case/data_files.hpp"
+#include "coupler/case/element_limits.hpp"
 #include "coupler/case/parts.hpp"
 #include "fem/mesh/box.hpp"
 #include "fem/mesh/cut.hpp"
@@ -212,19 +213,9 @@ void make_lines(const Entry& entry, CaseParts& parts) {
   lines.finish();
 }
 
-/// Most elements of a case: beyond, the numbers of the entries of the equations outgrow 32 bits.
-constexpr double kMostElements = 1e6;
-
-/// The memory of a run for each, factors included: measured, 10,800 elements Q8R more with an elastic material.
-constexpr double kBytesOfElement = 65e3;
-
-void check_number(Section& section, const fem::RectangleSpecification& specification) {
-  const double count = static_cast<double>(specification.elements[0]) * specification.elements[1];
-  if (count <= kMostElements) return;
-  section.fault(
-      "elements",
-      fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken", count,
-                  1e-9 * kBytesOfElement * count, kMostElements));
+void check_number(Section& section, int dimension, double count) {
+  if (const std::string fault = too_many_elements(dimension, count); !fault.empty())
+    section.fault("elements", "elements: " + fault);
 }
 
 void read_rectangle(const Entry& entry, const std::string& element, CaseParts& parts) {
@@ -244,7 +235,7 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
   if (has_patch && regions != nullptr)
     section.fault("patch", "patch: 'regions' divide the elements already; keep one of them");
   section.finish();
-  check_number(section, specification);
+  check_number(section, 2, static_cast<double>(specification.elements[0]) * specification.elements[1]);
   if (parts.faults.size() == faults_before && !element.empty()) {
     parts.result.problem.mesh = fem::rectangle(specification, element);
     if (has_patch) make_patch<2>(patch, specification, section, parts.result.problem.mesh);
@@ -252,18 +243,6 @@ void read_rectangle(const Entry& entry, const std::string& element, CaseParts& p
     if (regions != nullptr) make_regions(*regions, parts);
     if (lines != nullptr) make_lines(*lines, parts);
   }
-}
-
-/// The same in space. Memory measured with 1,728 elements H20R of an elastic material; more of them take more each.
-constexpr double kMostElementsInSpace = 1e5;
-constexpr double kBytesOfElementInSpace = 1.5e6;
-
-void check_number_in_space(Section& section, double count) {
-  if (count <= kMostElementsInSpace) return;
-  section.fault(
-      "elements",
-      fmt::format("elements: {:.0f} of them would take {:.0f} GB of memory; at most {:.0f} are taken", count,
-                  1e-9 * kBytesOfElementInSpace * count, kMostElementsInSpace));
 }
 
 void read_box(const Entry& entry, const std::string& element, CaseParts& parts) {
@@ -282,7 +261,7 @@ void read_box(const Entry& entry, const std::string& element, CaseParts& parts) 
   std::vector<double> patch;
   if (has_patch) patch = section.quantities("patch", 3, Dimension::length, Limit::positive);
   section.finish();
-  check_number_in_space(section, count);
+  check_number(section, 3, count);
   if (parts.faults.size() != faults_before || element.empty()) return;
   parts.result.space->mesh = fem::box(specification, element);
   if (has_patch) make_patch<3>(patch, specification, section, parts.result.space->mesh);
@@ -308,7 +287,7 @@ void read_cylinder(const Entry& entry, const std::string& element, CaseParts& pa
     section.fault("elements", fmt::format("elements: the first number, of elements along a quarter of the "
                                           "circumference, must be even, found {}",
                                           specification.quarter));
-  check_number_in_space(section, fem::number_of_elements(specification));
+  check_number(section, 3, fem::number_of_elements(specification));
   if (parts.faults.size() != faults_before || element.empty()) return;
   try {
     parts.result.space->mesh = fem::cylinder(specification, element);

@@ -67,15 +67,11 @@ std::optional<std::vector<MaterialOfGrains>> materials_of_grains(const Entry& do
 /// The length that polargrain layer has written beside a packing. @returns nothing where `fault` is told why not
 std::optional<double> measured_spread(const MaterialOfGrains& material, const Packing& packing,
                                       const std::function<void(const std::string&)>& fault) {
-  bool told = false;
   const auto measured =
       length_beside({material.packing_file, material.packing_name, 2.0 * packing.mean_radius(),
                      text_of_script(material.script_file), material.script_name},
-                    [&](const std::string& text) {
-                      told = true;
-                      fault(text);
-                    });
-  if (!measured || told) return std::nullopt;
+                    fault);
+  if (!measured) return std::nullopt;
   if (!measured->spread)
     fault(fmt::format(
         "{} holds no spread; 'polargrain layer' without --no-spread measures it, or give a length",

@@ -152,6 +152,7 @@ TEST(LayerCommand, MistakesAreFoundBeforeAnythingIsMade) {
   EXPECT_NE(errors_of("--spread 3,5")
                 .find("--spread: 3 diameters need elements of 1.5 or less, a column has them of 2"),
             std::string::npos);
+  EXPECT_NE(errors_of("--spread 0").find("--spread: 0 is not a positive number\n"), std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
   EXPECT_NE(errors_of("--set pressure=-1").find("pressure"), std::string::npos);
   EXPECT_NE(errors_of("--way 0").find("--way"), std::string::npos);

@@ -270,6 +270,8 @@ TEST(NewCommand, RefusalsSayWhatToDoAndWriteNothing) {
       {"biaxial -o new --pressure 100kg", "--pressure 100kg: expected a pressure in Pa"},
       {"biaxial -o new --size 0 1", "--size 0: expected a length"},
       {"biaxial -o new --scheme law", "--scheme"},
+      {"triaxial3d -o new --elements 100 400",
+       "--elements 100 400: 4000000 of them would take 6000 GB of memory; at most 100000 are taken"},
       {"footing -o new --size 1 1", "--size is not for this kind; it takes --scheme, --grains"},
       {"mesh -o new", "name the mesh, --mesh FILE.msh"},
       {"mesh -o new --mesh none.msh", "none.msh"},
