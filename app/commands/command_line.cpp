@@ -97,7 +97,8 @@ std::string in_other_words(std::string text) {
     if (const std::size_t place = text.find(theirs); place != std::string::npos)
       text.replace(place, std::string_view(theirs).size(), ours);
   // Limits of a number that is only to be positive, digit by digit.
-  if (const std::size_t place = text.find(" is not a number from 0.000000 to 17976"); place != std::string::npos)
+  if (const std::size_t place = text.find(" is not a number from 0.000000 to 17976");
+      place != std::string::npos)
     text = text.substr(0, place) + " is not a positive number";
   // "--set: 1 required KEY=VALUE missing"
   constexpr std::string_view kOne = ": 1 required ";

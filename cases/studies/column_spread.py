@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Columns of finite elements whose cells spread their slips, between plates that hold them: against layers of grains.
 
-    python3 column_spread.py -o RESULTS [--spread 50] [--elements 10] [--columns 5] [--rolling 0.2] [--mirrors] [--layers FOLDER] [--programs FOLDER...]
+    python3 column_spread.py -o RESULTS [--spread 5.4] [--elements 10] [--columns 5] [--rolling 0.2] [--friction 0.5463] [--pressure 100]
+                             [--radius 3 7] [--packed-with 0] [--mirrors] [--layers FOLDER] [--programs FOLDER...]
 
-A column is 20 d high, with tied sides, under constant normal stress; each two diameters have a packing of their own, those of
-layer_spread.py. Elements have one point. FOLDER, of `polargrain layer`, has layers of grains with the same rolling friction. Prints a
-table in Markdown: mean and 95 % interval, and differences of the means. What is there already is not made again.
+A column is 20 d high, with tied sides, under constant normal stress; each two diameters have a packing of their own, by default those of
+layer_spread.py. Elements have one point. FOLDER, of `polargrain layer`, has layers of the same grains. Prints a table in Markdown: mean
+and 95 % interval, and differences of the means. What is there already is not made again: a folder for each kind of grains.
 """
 import argparse
 import pathlib
@@ -14,15 +15,14 @@ import pathlib
 from built_package import polargrain
 from intervals import difference_of_means, table
 from layer_spread import HEIGHT, SCRIPT, of_column, of_layer
-from layer_study import DIAMETER, PRESSURE
 from polargrain.table import read_table
 from runs import ROOT, Failed, Programs
 
 REGIONS = 10
-PACKING = {"sizes": {"law": "uniform", "radius": ["3 mm", "7 mm"]}, "density": 2650.0, "thickness": "100 mm",
-           "script": "cells/hooke_radii.in", "pressure": "100 kPa", "friction": 0.0, "grains": 100}
+FRICTION = 0.5463024898437905  # of SCRIPT
+PACKING = {"density": 2650.0, "thickness": "100 mm", "script": "cells/hooke_radii.in", "grains": 100}
 CASE = """title: A column of cells whose slips are spread
-continuum: {{kind: cauchy, spread: {spread:g} mm{hold}}}
+continuum: {{kind: cauchy, spread: {spread:g} m{hold}}}
 mesh:
   rectangle: {{size: [{size:.8g} m, {height:g} m], elements: [1, {elements}], regions: {{{regions}}}, levels: {{{levels}}}}}
   element: Q4R
@@ -32,7 +32,7 @@ regions: {{{assigned}}}
 boundary:
   - {{on: left, tie: right}}
   - {{on: bottom, fix: [u1, u2]}}
-  - {{on: top, move: {{u1: [[0, 0], [1, 4 mm], [2, 50 mm]]}}, pressure: 100 kPa}}
+  - {{on: top, move: {{u1: [[0, 0], [1, {first:g} m], [2, {last:g} m]]}}, pressure: {pressure:g} Pa}}
 steps:
   stages:
     - {{until: 1, count: 12}}
@@ -50,11 +50,12 @@ monitors:
 """
 
 
-def case(spread, elements, packings, script, hold):
-    height = HEIGHT * DIAMETER
+def case(options, packings, script):
+    height, elements = HEIGHT * options.diameter, options.elements
     size, region = height / elements, height / REGIONS
     return CASE.format(
-        spread=spread, hold=", hold: [bottom, top]" if hold else "", elements=elements, size=size, height=height,
+        spread=options.spread * options.diameter, hold="" if options.mirrors else ", hold: [bottom, top]", elements=elements, size=size,
+        height=height, pressure=options.pressure, first=0.4 * options.diameter, last=5.0 * options.diameter,
         regions=", ".join(f"r{k}: [0, {k * region:.6g} m, {size:.8g} m, {(k + 1) * region:.6g} m]" for k in range(REGIONS)),
         levels=", ".join(f"l{k}: {k * size:.8g} m" for k in range(1, elements)),
         materials="\n".join(f"  s{k}: {{model: cell, script: {script}, packing: {packing}}}" for k, packing in enumerate(packings)),
@@ -62,22 +63,25 @@ def case(spread, elements, packings, script, hold):
         monitors="\n".join(f"  l{k}: {{on: l{k}, displacement: u1}}" for k in range(1, elements)))
 
 
-def rows_of(history, elements):
+def rows_of(history, options):
     """Displacement (d), ratio of stresses and shear of every element, by step."""
-    size = HEIGHT * DIAMETER / elements
+    elements = options.elements
+    size = HEIGHT * options.diameter / elements
     ways = [[0.0] * len(history["displacement"]), *(history[f"l{k}"] for k in range(1, elements)), history["displacement"]]
-    return [(ways[-1][step] / DIAMETER, history["shear_force"][step] / size / PRESSURE,
+    return [(ways[-1][step] / options.diameter, history["shear_force"][step] / size / options.pressure,
              [(ways[k + 1][step] - ways[k][step]) / size for k in range(elements)]) for step in range(len(ways[0]))]
 
 
-def script_of(place, rolling):
-    """The script of cells with another coefficient of rolling friction."""
+def script_of(place, options):
+    """The script of cells with other coefficients of friction."""
     text = (ROOT / "liggghts_inputs" / SCRIPT).read_text(encoding="utf-8")
-    before, line, after = text.partition("coefficientRollingFriction peratomtypepair 1 ")
-    if not line:
-        raise Failed(f"{SCRIPT} has changed")
-    file = place / f"rolling{rolling:g}.in"
-    file.write_text(before + line + f"{rolling:g}" + after[after.index("\n"):], encoding="utf-8")
+    for name, value in (("coefficientRollingFriction", options.rolling), ("coefficientFriction", options.friction)):
+        before, line, after = text.partition(f"property/global {name} peratomtypepair 1 ")
+        if not line:
+            raise Failed(f"{SCRIPT} has changed")
+        text = before + line + f"{value:.17g}" + after[after.index("\n"):]
+    file = place / "cell.in"
+    file.write_text(text, encoding="utf-8")
     return file.name
 
 
@@ -90,41 +94,49 @@ def differences(columns, layers):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
-    arguments.add_argument("--spread", type=float, default=50.0, help="mm")
+    arguments.add_argument("--spread", type=float, default=5.0, help="d")
     arguments.add_argument("--elements", type=int, default=10, help="a multiple of 10")
     arguments.add_argument("--columns", type=int, default=5)
     arguments.add_argument("--rolling", type=float, default=0.2, help="coefficient of rolling friction")
+    arguments.add_argument("--friction", type=float, default=FRICTION, help="coefficient of sliding friction")
+    arguments.add_argument("--pressure", type=float, default=100.0, help="kPa")
+    arguments.add_argument("--radius", type=float, nargs=2, default=[3.0, 7.0], help="least and largest, mm")
+    arguments.add_argument("--packed-with", type=float, default=0.0, metavar="FRICTION", help="more of it packs more loosely")
     arguments.add_argument("--mirrors", action="store_true", help="ends that mirror slips, in place of plates that hold them")
     arguments.add_argument("--layers", type=pathlib.Path)
     arguments.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER")
     options = arguments.parse_args()
+    options.pressure *= 1e3
+    options.diameter = 1e-3 * sum(options.radius)
+    packing_of_all = {**PACKING, "pressure": options.pressure, "friction": options.packed_with,
+                      "sizes": {"law": "uniform", "radius": [1e-3 * radius for radius in options.radius]}}
     programs = Programs(options.programs)
     place = options.output.resolve()
     place.mkdir(parents=True, exist_ok=True)
-    script = script_of(place, options.rolling)
+    script = script_of(place, options)
     figures, costs = [], []
     for number in range(options.columns):
         seeds = [100 + 20 * number + 2 * k for k in range(REGIONS)]
         packings = [place / f"grains100-seed{seed}.h5" for seed in seeds]
         for seed, packing in zip(seeds, packings):
             if not packing.exists():
-                polargrain.pack({**PACKING, "seed": seed}, packing)
-        name = f"column{number}-{options.elements}-{options.spread:g}-{options.rolling:g}{'-mirrors' if options.mirrors else ''}"
+                polargrain.pack({**packing_of_all, "seed": seed}, packing)
+        name = f"column{number}-{options.elements}-{options.spread:g}{'-mirrors' if options.mirrors else ''}"
         file = place / f"{name}.yaml"
-        file.write_text(case(options.spread, options.elements, [packing.name for packing in packings], script, not options.mirrors), encoding="utf-8")
+        file.write_text(case(options, [packing.name for packing in packings], script), encoding="utf-8")
         if not (place / name / "history.csv").exists():
             try:
                 programs.call(place / f"{name}.log", programs.find("polargrain"), "run", file, "-o", place / name, "--quiet")
             except Failed as failure:
                 print(f"{name} stops early: {failure}", flush=True)
         history = read_table(place / name / "history.csv")
-        figures.append(of_column(rows_of(history, options.elements)))
+        figures.append(of_column(rows_of(history, options)))
         costs.append({"iterations": sum(history["iterations"]) / len(history["iterations"]), "largest": max(history["iterations"])})
         print(name, figures[-1], costs[-1], flush=True)
     groups = {f"{options.spread:g}": figures}
     if options.layers:
-        groups["grains"] = [of_layer(layer) for layer in sorted(options.layers.glob("layer*-seed*"))]
-    table("spread, mm", groups, list(figures[0]))
+        groups["grains"] = [of_layer(layer, options.diameter, options.pressure) for layer in sorted(options.layers.glob("layer*-seed*"))]
+    table("spread, d", groups, list(figures[0]))
     if options.layers:
         differences(figures, groups["grains"])
     table("costs", {f"{options.spread:g}": costs}, list(costs[0]))

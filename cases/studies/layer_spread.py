@@ -208,11 +208,11 @@ def of_column(rows):
     return {**figures, **{f"thickness {at:g} d": thickness(rows, figures["at"] + at, HEIGHT) for at in WINDOWS}}
 
 
-def of_layer(folder):
+def of_layer(folder, diameter=DIAMETER, pressure=PRESSURE):
     """The same of a layer of grains that `polargrain layer` has sheared."""
     history = read_table(folder / "history.csv")
-    displacements = [value / DIAMETER for value in history["displacement"]]
-    figures = softening(displacements, [value / PRESSURE for value in history["shear_stress"]])
+    displacements = [value / diameter for value in history["displacement"]]
+    figures = softening(displacements, [value / pressure for value in history["shear_stress"]])
     dumps = {int(file.stem.split("-")[1]): file for file in (folder / "grains").glob("step-*.dump")}
     places = {step: place for step, place in zip(history["step"], displacements)}
     known = [(places.get(step, 0.0), file) for step, file in sorted(dumps.items())]
@@ -222,7 +222,7 @@ def of_layer(folder):
             figures[f"thickness {at:g} d"] = math.nan
             continue
         before, after = (read_grains(min(known, key=lambda one: abs(one[0] - place))[1]) for place in (centre - 0.5, centre + 0.5))
-        figures[f"thickness {at:g} d"] = band(0.5 * (before[:, 2] + after[:, 2]), after[:, 1] - before[:, 1])[0] / DIAMETER
+        figures[f"thickness {at:g} d"] = band(0.5 * (before[:, 2] + after[:, 2]), after[:, 1] - before[:, 1])[0] / diameter
     return figures
 
 

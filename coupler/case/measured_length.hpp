@@ -36,7 +36,7 @@ struct GrainsToMeasure {
   std::string script;          ///< text of the contact law; empty: it has a fault
   std::string script_name;
 };
-/// The lengths beside a packing. @returns nothing, and tells `fault` why, where it finds none of these grains and this law
+/// The lengths beside a packing. @returns nothing, and tells `fault` why, where the file is missing, wrong, of other grains or another law
 std::optional<MeasuredLength> length_beside(const GrainsToMeasure& grains,
                                             const std::function<void(const std::string&)>& fault);
 

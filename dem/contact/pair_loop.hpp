@@ -30,7 +30,8 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
         pair_(*pair),
         recorder_(contact_recorder(*lammps)),
         passes_(part_of<ForcePasses>(*lammps)),
-        asks_for_pass_(lammps->suffix_enable != 0 && std::strcmp(lammps->suffix, "fast") == 0) {}
+        asks_for_pass_(lammps->suffix_enable != 0 && lammps->suffix != nullptr &&
+                       std::strcmp(lammps->suffix, "fast") == 0) {}
   ~PairLoop() override { use(nullptr); }
 
   [[nodiscard]] const SpokenSettings& spoken_settings() const override { return model_.spoken_settings(); }

@@ -44,6 +44,7 @@ class EnginePass final : public ForcePass {
   }
 
   void add_forces(PairGran& pair) override {
+    if (holds_ && grains_have_changed()) hand_back();
     if (!holds_)
       take_over();
     else if (lammps_.neighbor->ncalls != built_)
@@ -97,13 +98,24 @@ class EnginePass final : public ForcePass {
     }
   };
 
+  /// Whether a fix has made grains larger or heavier while the list lasts.
+  [[nodiscard]] bool grains_have_changed() const {
+    const LAMMPS_NS::Atom& atom = *lammps_.atom;
+    bool changed = false;
+    for (int k = 0; k < atom.nlocal; ++k)
+      changed = changed | (atom.radius[k] != list_radii_[k]) | (atom.rmass[k] != list_masses_[k]);
+    return changed;
+  }
+
   /// Grains, neighbours and springs as the engine has them.
   void take_over() {
     const LAMMPS_NS::Atom& atom = *lammps_.atom;
     const int count = atom.nlocal + atom.nghost;
     const auto n = static_cast<std::size_t>(count);
-    spheres_.radii.assign(atom.radius, atom.radius + count);
-    spheres_.masses.assign(atom.rmass, atom.rmass + count);
+    list_radii_.assign(atom.radius, atom.radius + count);
+    list_masses_.assign(atom.rmass, atom.rmass + count);
+    spheres_.radii = list_radii_;
+    spheres_.masses = list_masses_;
     spheres_.types.resize(n);
     for (int k = 0; k < count; ++k) {
       spheres_.types[static_cast<std::size_t>(k)] = atom.type[k] - 1;
@@ -205,6 +217,7 @@ class EnginePass final : public ForcePass {
   std::array<int, kSphereSprings> places_;
   const CellLoading& loading_;
   Spheres spheres_;
+  std::vector<double> list_radii_, list_masses_;  // of the engine when the list was taken, m, kg
   SphereList list_;
   LineVector<double> grains_, forces_;
   double no_image_[kImageStride] = {};

@@ -188,6 +188,40 @@ TEST(EnginePasses, HandSpringsToTablesOfContactsAndToRestarts) {
   EXPECT_LT(largest_difference(from_fast.velocities(), from_engine.velocities()), 1e-8);
 }
 
+/// 64 equal spheres in rows, each of which touches six.
+Packing rows_of_spheres() {
+  constexpr int kRows = 4;
+  Packing packing = packing_of(3);
+  packing.box = kRows * 0.00999 * Eigen::Matrix2d::Identity();
+  packing.thickness = kRows * 0.00999;
+  packing.lean.setZero();
+  packing.state.reset();
+  packing.grains.resize(kRows * kRows * kRows);
+  int k = 0;
+  for (Grain& grain : packing.grains) {
+    grain.position = {0.00999 * (k % kRows), 0.00999 * (k / kRows % kRows)};
+    grain.height = 0.00999 * (k / kRows / kRows);
+    grain.radius = 0.005;
+    grain.mass = 1.4e-3;
+    ++k;
+  }
+  return packing;
+}
+
+// Grains may grow while a list of neighbours lasts.
+TEST(EnginePasses, SeeGrainsThatGrow) {
+  const std::string script = scene(
+      "hooke/radii tangential li_chu", 3,
+      "neighbor 0.002 bin\nvariable size equal 0.01*(1.0+1e-5*step)\nfix grow all adapt 1 atom diameter v_size\n");
+  const Packing packing = rows_of_spheres();
+  Scene fast(packing, script, true);
+  Scene engine(packing, script, false);
+  for (Scene* const scene : {&fast, &engine}) scene->run("run 50 post no\n");
+  ASSERT_TRUE(fast.is_fast());
+  EXPECT_EQ(fast.builds(), 0);  // behind that of the set-up
+  EXPECT_LT(largest_difference(fast.velocities(), engine.velocities()), 1e-7);
+}
+
 TEST(EnginePasses, SayWhyTheyAreNotTaken) {
   const std::string laws = "tangential li_chu rolling_friction li_chu rollingDamping on";
   Scene scene_of_dashpots(packing_of(2), scene("hooke/radii " + laws, 2) + "run 1\n", true);
@@ -195,6 +229,9 @@ TEST(EnginePasses, SayWhyTheyAreNotTaken) {
   EXPECT_EQ(scene_of_dashpots.told(),
             "contacts in LIGGGHTS's own loop, which is slower: there are no kernels for rollingDamping on");
   Scene known(packing_of(2), scene("hooke/radii tangential history", 2) + "run 1\n", true);
+  // "on" names no style.
+  Scene on(packing_of(2), "suffix on\n" + scene("hooke/radii tangential history", 2) + "run 1\n", false);
+  EXPECT_FALSE(on.is_fast());
   EXPECT_EQ(known.told(), "contacts by kernels for " + std::string(name_of(best_instruction_set())) +
                               " (hooke/radii, history, off)");
 }
