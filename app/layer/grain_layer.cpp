@@ -51,8 +51,11 @@ void open_packing(const Packing& packing, const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line);) {
     if (line.ends_with("ylo yhi"))
       line = fmt::format("{:.17g} {:.17g} ylo yhi", -kRoom * height, (1.0 + kRoom) * height);
-    // A box that is open above and below has no tilt.
-    if (line.ends_with("xy xz yz")) continue;
+    // A box that is open above and below has no tilt along them. Across the depth images of spheres stay where they are.
+    if (line.ends_with("xy xz yz")) {
+      if (packing.dimension == 2) continue;
+      line.replace(0, line.find(' '), "0");
+    }
     text += line + '\n';
   }
   write_file(file, text);
@@ -67,8 +70,10 @@ LayerScript layer_script(const std::string& script, const std::string& file) {
   for (const ScriptCommand& command : commands_of_script(script, file)) {
     std::vector<std::string> words = words_of(command.text);
     if (words.empty()) continue;
-    if (words[0] == "dimension" && has(words, "3"))
-      fail(command.line, "is of spheres in space; layers are made of discs (dimension 2)");
+    if (words[0] == "dimension") {
+      made.spheres = has(words, "3");
+      made.dimension_line = command.line;
+    }
     if (const double modulus = modulus_of(words); modulus > 0.0) made.modulus = modulus;
     if (words[0] == "boundary") words = {"boundary", "p", "f", "p"};
     // The layer integrates its grains itself.
@@ -85,6 +90,7 @@ LayerScript layer_script(const std::string& script, const std::string& file) {
         0,
         "gives no number for contactModulus or youngsModulus, which the plates of a layer are damped by; write it "
         "out in a line 'fix ID all property/global'");
+  if (!made.spheres) made.text += "fix plane all enforce2d\n";
   const auto shear = coupler::find_data_file("specimen/layer_shear.in", {});
   if (!shear)
     fail(0, "specimen/layer_shear.in, which the program brings along, is not there; install it whole");
@@ -121,7 +127,7 @@ void shear_between(const Packing& packing, const Plates& plates, const LayerScri
   const double radius = packing.mean_radius();
   double mass = 0.0;
   for (const Grain& grain : packing.grains) mass += grain.mass / static_cast<double>(packing.grains.size());
-  // A disc of unit thickness in the engine: its mass and the force per thickness belong together.
+  // Discs have unit thickness in the engine: mass and force per thickness belong together.
   const double critical = 2.0 * std::sqrt(script.modulus * radius * mass);
   const std::vector<std::pair<std::string, double>> variables{
       {"low", plates.low},

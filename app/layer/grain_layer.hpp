@@ -13,11 +13,13 @@ namespace polargrain::app {
 /// specimen/layer_shear.in behind it.
 struct LayerScript {
   std::string text;
-  double modulus = 0.0;  ///< of the contacts, Pa: contactModulus or youngsModulus
+  double modulus = 0.0;    ///< of the contacts, Pa: contactModulus or youngsModulus
+  bool spheres = false;    ///< in space
+  int dimension_line = 0;  ///< where the script says so
 };
 
 /// @param script of a cell, with its included files @param file its name, for messages
-/// @throws InputError where it has no modulus that can be read, or is of grains in space
+/// @throws InputError where it has no modulus that can be read
 LayerScript layer_script(const std::string& script, const std::string& file);
 
 /// @throws InputError where a packing is to be turned with its bedding: plates lie along the sides of its box, which turn along

@@ -39,6 +39,9 @@ class WallMeasurement {
         specification_(read_packing_specification(options.specification, settings_of(1), options.scripts)),
         script_(layer_script(specification_.script, specification_.script_file)),
         jobs_(options.seeds.size() * (1 + options.roughnesses.size()), options.quiet) {
+    if (script_.spheres)
+      throw InputError({specification_.script_file, script_.dimension_line,
+                        "is of spheres in space; boxes on walls are made of discs (dimension 2)"});
     refuse_turned_bedding(specification_, options.specification, options.settings);
     for (const std::filesystem::path& packing : options.beside) read_packing(packing);
     std::filesystem::create_directories(options.directory);

@@ -114,6 +114,8 @@ def main():
     place = options.output.resolve()
     place.mkdir(parents=True, exist_ok=True)
     script = script_of(place, options)
+    if options.packed_with:  # such a packing keeps springs, which belong to its script
+        packing_of_all["script"] = str(place / script)
     figures, costs = [], []
     for number in range(options.columns):
         seeds = [100 + 20 * number + 2 * k for k in range(REGIONS)]

@@ -25,6 +25,7 @@ constexpr double kLayerRunUp = 1e-3;
 /// Share of the critical damping while the layer is sheared. It dilates then, and what brakes the plate carries part of
 /// its pressure: 1.5 % of it with critical damping, at an inertial number of 2e-4.
 constexpr double kDampingInShear = 0.05;
+constexpr double kSameDepth = 1e-6;  ///< relative
 
 }  // namespace
 
@@ -59,9 +60,10 @@ FixLayer::FixLayer(LAMMPS* lammps, int count, char** words) : Fix(lammps, count,
   if (lower_ == 0 || upper_ == 0) fail("name the groups of the plates: lower GROUP upper GROUP");
   if (!(pressure_ > 0.0) || !(modulus_ > 0.0) || !(thickness_ > 0.0))
     fail("pressure, modulus and thickness must be positive");
-  if (domain->dimension != 2) error->all(FLERR, "Fix layer needs dimension 2");
-  if (!domain->xperiodic || domain->yperiodic)
-    error->all(FLERR, "Fix layer needs a box that is periodic along x only: boundary p f p");
+  if (!domain->xperiodic || domain->yperiodic || !domain->zperiodic)
+    error->all(FLERR, "Fix layer needs a box that is not periodic along y: boundary p f p");
+  if (domain->dimension == 3 && std::abs(thickness_ / domain->zprd - 1.0) > kSameDepth)
+    error->all(FLERR, "Fix layer: the thickness of a layer of spheres is the depth of its box");
   if (comm->nprocs > 1) error->all(FLERR, "Fix layer runs in one process");
 }
 
@@ -110,7 +112,7 @@ void FixLayer::hold_plates() {
     double* const f = atom->f[k];
     const bool up = (atom->mask[k] & upper_) != 0;
     if (!up && (atom->mask[k] & lower_) == 0) {
-      unbalanced += std::sqrt(f[0] * f[0] + f[1] * f[1]);
+      unbalanced += std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
       ++free;
       continue;
     }
@@ -121,8 +123,9 @@ void FixLayer::hold_plates() {
     std::fill_n(atom->omega[k], 3, 0.0);
     atom->v[k][0] = up ? state_.velocity_x : 0.0;
     atom->v[k][1] = up ? state_.velocity_y : 0.0;
+    atom->v[k][2] = 0.0;
   }
-  unbalanced_ = free > 0 ? unbalanced / free / (pressure_ * thickness_ * mean_diameter_) : 0.0;
+  unbalanced_ = free > 0 ? unbalanced / free / (pressure_ * depth_of_grain() * mean_diameter_) : 0.0;
 }
 
 void FixLayer::move_upper_plate() {
@@ -133,8 +136,9 @@ void FixLayer::move_upper_plate() {
     state_.velocity_x =
         std::min(1.0, state_.time * state_.rate / kLayerRunUp) * state_.rate * state_.reference_height;
   }
-  // A packing is half as stiff as its contacts: modulus 2 E r of a contact over the thickness.
-  const double stiffness = 0.5 * modulus_ * mean_diameter_ * width() / height();
+  // A packing is half as stiff as its contacts: modulus 2 E r of a contact of discs over the thickness, of spheres over a diameter.
+  const double stiffness =
+      0.5 * modulus_ * mean_diameter_ * (thickness_ / depth_of_grain()) * width() / height();
   const double load = force_y_upper_ - pressure_ * thickness_ * width();
   const double drag = (state_.rate > 0.0 ? kDampingInShear : 1.0) * 2.0 * std::sqrt(stiffness / plate_mass_);
   // The drag is taken at the end of the step, which is stable for any step.
@@ -154,6 +158,10 @@ double FixLayer::height() const {
     if ((atom->mask[k] & lower_) != 0) bottom = std::max(bottom, atom->x[k][1]);
   }
   return top - bottom;
+}
+
+double FixLayer::depth_of_grain() const {
+  return domain->dimension == 3 ? mean_diameter_ : thickness_;
 }
 
 double FixLayer::width() const {

@@ -15,13 +15,13 @@ namespace polargrain::dem {
 ///
 /// E    contact modulus of the grains (Pa, as of the normal model hooke/radii): the upper plate has the mass of its grains
 ///      and is damped against the stiffness of the layer, critically before the shear and by a twentieth of that in it
-/// T    thickness of the discs, m, 1; stresses are forces per thickness
+/// T    thickness of the discs, m, 1; of a layer of spheres its depth along z; stresses are forces per thickness
 ///
 /// Vector (global): 1 shear (displacement of the upper plate over the height at the start), 2 that displacement (m), 3 shear
 /// stress s21 (Pa, mean over the two plates), 4 the same over P, 5 normal stress on the lower plate over P
 /// (compression positive), 6 rise of the upper plate since the start of the shear (m), 7 height between the grains of
 /// the plates nearest to each other, centre to centre (m), 8 and 9 force along x on the upper and the lower plate (N), 10 mean
-/// unbalanced force on a free grain over P T d, d the mean diameter.
+/// unbalanced force on a free grain over P T d, of spheres P d^2, d the mean diameter.
 ///
 /// Restarts: speed of the plate, its mode and the references are in the restart file. One process only.
 class FixLayer : public LAMMPS_NS::Fix {
@@ -50,6 +50,8 @@ class FixLayer : public LAMMPS_NS::Fix {
 
   [[nodiscard]] double height() const;
   [[nodiscard]] double width() const;
+  /// Of what a grain takes up along z: a disc the thickness, a sphere a diameter, m.
+  [[nodiscard]] double depth_of_grain() const;
   /// Takes the forces off the grains of the plates, which move with their plate.
   void hold_plates();
   void move_upper_plate();

@@ -101,6 +101,11 @@ TEST(InterfaceCommand, MistakesAreFoundBeforeAnythingIsMade) {
   EXPECT_NE(errors_of("--seeds 1,1").find("no independent samples"), std::string::npos);
   EXPECT_NE(errors_of("--roughness 0").find("--roughness"), std::string::npos);
   EXPECT_NE(errors_of("--set script=cells/none.in").find("none.in"), std::string::npos);
+  write(scratch.path() / "grains.yaml",
+        "grains: 100\nsizes: {law: uniform, radius: [3 mm, 7 mm]}\ndensity: 2650\ndimension: 3\n"
+        "script: cells/spheres_hooke_radii.in\npressure: 100 kPa\nfriction: 0\n");
+  EXPECT_NE(errors_of("").find("is of spheres in space; boxes on walls are made of discs"),
+            std::string::npos);
 }
 
 }  // namespace

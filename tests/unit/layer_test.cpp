@@ -232,6 +232,18 @@ TEST(LayerScript, IsThatOfTheCellOpenedAndDamped) {
   EXPECT_NE(script.text.find("tangential history damping on"), std::string::npos);
   EXPECT_EQ(script.text.find("nve/sphere"), std::string::npos);
   EXPECT_NE(script.text.find("layer_shear.in"), std::string::npos);
+  EXPECT_NE(script.text.find("suffix fast"), std::string::npos);
+  EXPECT_NE(script.text.find("enforce2d"), std::string::npos);
+  EXPECT_FALSE(script.spheres);
+}
+
+TEST(LayerScript, OfSpheresStaysInSpace) {
+  std::string spheres = kScript;
+  spheres.replace(spheres.find("dimension"),
+                  spheres.find('\n', spheres.find("dimension")) - spheres.find("dimension"), "dimension 3");
+  const LayerScript script = layer_script(spheres, "cell.in");
+  EXPECT_TRUE(script.spheres);
+  EXPECT_EQ(script.text.find("enforce2d"), std::string::npos);
 }
 
 std::string error_of(const std::string& script) {
@@ -244,7 +256,6 @@ std::string error_of(const std::string& script) {
 }
 
 TEST(LayerScript, RefusesWhatCannotBeALayer) {
-  EXPECT_NE(error_of("dimension 3\n").find("cell.in:1: is of spheres in space"), std::string::npos);
   EXPECT_NE(error_of("dimension 2\n").find("gives no number for contactModulus or youngsModulus"),
             std::string::npos);
 }

@@ -20,19 +20,45 @@ using namespace polargrain::testing;
 
 constexpr double kShearRate = 0.5;  // 1/s, of the height at the start
 
-/// Two or more rows of touching discs over a periodic width; the lowest and the highest are the plates.
-void write_rows(const std::filesystem::path& file, int rows) {
+/// Of a layer of spheres: two planes of them, which do not touch.
+constexpr int kPlanes = 2;
+constexpr double kDepth = 2.1 * kRadius * kPlanes;
+
+/// Two or more rows of touching discs, or spheres, over a periodic width; the lowest and the highest are the plates.
+void write_rows(const std::filesystem::path& file, int rows, bool spheres = false) {
   std::ofstream out(file);
   out.precision(17);
-  const double density = 2650.0 * 0.1;  // as in write_lattice
+  const double density = spheres ? 2650.0 : 2650.0 * 0.1;  // as in write_lattice
+  const double depth = spheres ? kDepth : 0.1;
+  const int planes = spheres ? kPlanes : 1;
   out << "rows\n\n"
-      << rows * kColumns << " atoms\n1 atom types\n\n0 " << 2.0 * kRadius * kColumns
-      << " xlo xhi\n-0.05 0.1 ylo yhi\n-0.05 0.05 zlo zhi\n\nAtoms\n\n";
+      << planes * rows * kColumns << " atoms\n1 atom types\n\n0 " << 2.0 * kRadius * kColumns
+      << " xlo xhi\n-0.05 0.1 ylo yhi\n"
+      << -0.5 * depth << " " << 0.5 * depth << " zlo zhi\n\nAtoms\n\n";
   int id = 0;
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < kColumns; ++column)
-      out << ++id << " 1 " << 2.0 * kRadius << " " << density << " " << kRadius * (2 * column + 1 + row % 2)
-          << " " << kRadius * std::sqrt(3.0) * (1.0 - 1e-5) * row << " 0\n";
+  for (int plane = 0; plane < planes; ++plane)
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < kColumns; ++column)
+        out << ++id << " 1 " << 2.0 * kRadius << " " << density << " " << kRadius * (2 * column + 1 + row % 2)
+            << " " << kRadius * std::sqrt(3.0) * (1.0 - 1e-5) * row << " "
+            << depth * ((plane + 0.5) / planes - 0.5) << "\n";
+}
+
+/// The script of a layer, of spheres where asked.
+std::string layer_in(const Scratch& scratch, bool spheres) {
+  const std::string inputs = SPECIMEN_INPUTS;
+  if (!spheres) return inputs + "/layer.in";
+  std::string text = content(inputs + "/layer.in");
+  for (const auto& [before, after] :
+       {std::pair<std::string, std::string>{"dimension       2", "dimension       3"},
+        {"fix             plane all enforce2d", ""},
+        {"include         layer_shear.in", "include         " + inputs + "/layer_shear.in"}}) {
+    const auto place = text.find(before);
+    EXPECT_NE(place, std::string::npos) << before;
+    text.replace(place, before.size(), after);
+  }
+  write(scratch.path() / "spheres.in", text);
+  return (scratch.path() / "spheres.in").string();
 }
 
 struct Row {
@@ -40,18 +66,21 @@ struct Row {
          height = 0.0, unbalanced = 0.0;
 };
 
-std::vector<Row> shear(const Scratch& scratch, int rows, double friction, double way) {
+std::vector<Row> shear(const Scratch& scratch, int rows, double friction, double way, bool spheres = false) {
   std::filesystem::create_directory(scratch.path() / "grains");
-  write_rows(scratch.path() / "rows.data", rows);
+  write_rows(scratch.path() / "rows.data", rows, spheres);
+  // Spheres bear less than discs under one pressure: what brakes the plate weighs more.
+  const double rate = spheres ? 0.5 * kShearRate : kShearRate;
   const double height = kRadius * std::sqrt(3.0) * (rows - 1);
   std::ostringstream variables;
   variables << "-var folder " << scratch.path().string() << " -var data "
             << (scratch.path() / "rows.data").string() << " -var low " << 0.1 * height << " -var high "
             << 0.9 * height << " -var pressure " << kPressure << " -var friction " << friction
-            << " -var rolling_model off -var rest 2000 -var rate " << kShearRate
+            << " -var rolling_model off -var rest 2000 -var rate " << rate
             << " -var frames 10 -var row_steps 500 -var steps "
-            << static_cast<int>(way / (kShearRate * height) / 1e-5 / 10);
-  const ScriptRun run = run_liggghts_script(SPECIMEN_INPUTS, "layer.in", variables.str());
+            << static_cast<int>(way / (rate * height) / 1e-5 / 10);
+  if (spheres) variables << " -var thickness " << kDepth;
+  const ScriptRun run = run_liggghts_script(SPECIMEN_INPUTS, layer_in(scratch, spheres), variables.str());
   EXPECT_EQ(run.status, 0) << run.text;
   std::vector<Row> history;
   std::istringstream text(content(scratch.path() / "history.csv"));
@@ -66,10 +95,14 @@ std::vector<Row> shear(const Scratch& scratch, int rows, double friction, double
   return history;
 }
 
-TEST(SpecimenLayer, ARowThatClimbsHasTheStrengthAndTheRiseOfItsGeometry) {
+class SpecimenLayerOf : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, SpecimenLayerOf, ::testing::Values(false, true),
+                         [](const auto& tested) { return tested.param ? "spheres" : "discs"; });
+
+TEST_P(SpecimenLayerOf, ARowThatClimbsHasTheStrengthAndTheRiseOfItsGeometry) {
   for (const double friction : {0.0, 0.2, 0.5}) {
     const Scratch scratch("specimen_layer");
-    const std::vector<Row> history = shear(scratch, 2, friction, 0.8 * kRadius);
+    const std::vector<Row> history = shear(scratch, 2, friction, 0.8 * kRadius, GetParam());
     ASSERT_GT(history.size(), 50U);
     int compared = 0;
     double largest = 0.0;
