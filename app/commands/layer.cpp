@@ -108,6 +108,8 @@ Command add_layer(CLI::App& program, const Grains& grains) {
           ->check(CLI::PositiveNumber)
           ->check(finite_number());
   const auto local = std::make_shared<bool>(false);
+  command.add_flag_callback(
+      "--no-columns", [options] { options->columns = false; }, "Shear layers and no columns of cells");
   command.add_flag("--no-spread", *local, "No column spreads its slips")->excludes(spreads);
   add_sizes(command, *options);
   add_workers(command, options->workers, 1);

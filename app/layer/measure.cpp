@@ -40,7 +40,9 @@ class Measurement {
                                                   options.scripts)),
         script_(layer_script(specification_.script, specification_.script_file)),
         descriptions_(descriptions_of(options)),
-        jobs_(2 * options.seeds.size() + options.cell_seeds.size() * (1 + candidates()), options.quiet) {
+        jobs_(
+            2 * options.seeds.size() + (options.columns ? options.cell_seeds.size() * (1 + candidates()) : 0),
+            options.quiet) {
     read_packing_specification(options.specification, settings_of(options.cell_grains, 1), options.scripts);
     refuse_turned_bedding(specification_, options.specification, options.settings);
     for (const std::filesystem::path& packing : options.beside) read_packing(packing);
@@ -52,6 +54,10 @@ class Measurement {
 
   int measure() {
     const std::vector<LayerFigures> layers = shear_layers();
+    if (!options_.columns) {
+      if (!options_.quiet) show(layers);
+      return 0;
+    }
     CsvFile table(options_.directory / "columns.csv",
                   joined({{"cells", "lc", "lp", "spread"}, figure_names(), {"complete"}}));
     for (const int seed : options_.cell_seeds)
@@ -211,7 +217,7 @@ class Measurement {
     jobs_.next(fmt::format("column of cells, seed {}, {}", seed, lengths),
                std::filesystem::exists(folder / "ended"));
     run_column(column, folder, options_.workers, options_.scripts);
-    const LayerFigures figures = figures_of(read_column(column, folder), diameter, options_.way);
+    const LayerFigures figures = figures_of_column(column, folder, lengths);
     if (!figures.complete) ++incomplete_columns_;
     table.add(joined({{std::to_string(seed)},
                       lengths_in_table(description, first, second, "{:g}"),
@@ -219,6 +225,19 @@ class Measurement {
                       {figures.complete ? "1" : "0"}}));
     table.write();
     return figures;
+  }
+
+  [[nodiscard]] LayerFigures figures_of_column(const ColumnSpecification& column,
+                                               const std::filesystem::path& folder,
+                                               const std::string& lengths) const {
+    try {
+      return figures_of(read_column(column, folder), column.diameter, options_.way);
+    } catch (const RunError&) {
+      throw RunError(fmt::format(
+          "the column of cells with {} stopped before it was sheared by a diameter ({}); grains that are softer, or more of "
+          "them in a cell, balance more easily; --no-columns shears the layers alone",
+          lengths, (folder / "run.log").string()));
+    }
   }
 
   /// The columns lc, lp and spread of a table.

@@ -28,6 +28,7 @@ struct LayerOptions {
   double column_height = 20.0;
   int elements = 10;  ///< of a column
   int workers = 1;
+  bool columns = true;  ///< of cells; without them layers are sheared, and no more
   bool quiet = false;
   ScriptRules scripts = {};
 };
