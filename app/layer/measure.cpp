@@ -230,8 +230,9 @@ class Measurement {
   [[nodiscard]] LayerFigures figures_of_column(const ColumnSpecification& column,
                                                const std::filesystem::path& folder,
                                                const std::string& lengths) const {
+    const Shearing shearing = read_column(column, folder);
     try {
-      return figures_of(read_column(column, folder), column.diameter, options_.way);
+      return figures_of(shearing, column.diameter, options_.way);
     } catch (const RunError&) {
       throw RunError(fmt::format(
           "the column of cells with {} stopped before it was sheared by a diameter ({}); grains that are softer, or more of "

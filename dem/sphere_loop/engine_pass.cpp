@@ -103,7 +103,8 @@ class EnginePass final : public ForcePass {
     const LAMMPS_NS::Atom& atom = *lammps_.atom;
     bool changed = false;
     for (int k = 0; k < atom.nlocal; ++k)
-      changed = changed | (atom.radius[k] != list_radii_[k]) | (atom.rmass[k] != list_masses_[k]);
+      changed = changed | (atom.radius[k] != spheres_.radii[static_cast<std::size_t>(k)]) |
+                (atom.rmass[k] != list_masses_[k]);
     return changed;
   }
 
@@ -112,9 +113,8 @@ class EnginePass final : public ForcePass {
     const LAMMPS_NS::Atom& atom = *lammps_.atom;
     const int count = atom.nlocal + atom.nghost;
     const auto n = static_cast<std::size_t>(count);
-    list_radii_.assign(atom.radius, atom.radius + count);
+    spheres_.radii.assign(atom.radius, atom.radius + count);
     list_masses_.assign(atom.rmass, atom.rmass + count);
-    spheres_.radii = list_radii_;
     spheres_.masses = list_masses_;
     spheres_.types.resize(n);
     for (int k = 0; k < count; ++k) {
@@ -217,7 +217,7 @@ class EnginePass final : public ForcePass {
   std::array<int, kSphereSprings> places_;
   const CellLoading& loading_;
   Spheres spheres_;
-  std::vector<double> list_radii_, list_masses_;  // of the engine when the list was taken, m, kg
+  std::vector<double> list_masses_;  // of the engine when the list was taken, those of frozen grains too, kg
   SphereList list_;
   LineVector<double> grains_, forces_;
   double no_image_[kImageStride] = {};

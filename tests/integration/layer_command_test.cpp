@@ -57,6 +57,12 @@ TEST(LayerCommand, MeasuresLengthsThatACaseReadsAndGoesOnWhereItWas) {
   for (const char* const words : {"the layers prefer ", "lc and lp", "\n  spread "})
     EXPECT_NE(made.out.find(words), std::string::npos) << made.out;
 
+  // Layers without columns: those that are there.
+  const Outcome alone = run_in(scratch.path(), kProgram + kSmall + " --no-columns");
+  EXPECT_EQ(alone.status, 0) << alone.errors;
+  EXPECT_TRUE(alone.out.starts_with("layers of grains, mean and 95 % interval over 2")) << alone.out;
+  EXPECT_EQ(alone.out.find("misfit"), std::string::npos);
+
   // All is there: nothing is made again, and the same is found.
   const std::string lengths = content(scratch.path() / "out/lengths.csv");
   const auto layer = std::filesystem::last_write_time(scratch.path() / "out/layer144-seed1/history.csv");
