@@ -17,7 +17,7 @@ class ForcePass {
  public:
   virtual ~ForcePass() = default;
   /// Adds the forces and torques of all contacts to those of the grains; springs go on by a step outside of set-ups.
-  virtual void add_forces(LAMMPS_NS::PairGran& pair) = 0;
+  virtual void add_forces() = 0;
   /// Writes the springs where the engine keeps them: for all who read, move or change its contact histories.
   virtual void hand_back() = 0;
 };

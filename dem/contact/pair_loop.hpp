@@ -52,7 +52,7 @@ class PairLoop final : public LIGGGHTS::PairStyles::Granular<Model>, public Sett
         !pair->storeContactForces() && !pair->storeContactForcesStress() && !pair->store_sum_normal_force() &&
         !lammps_.force->newton_pair && !rare_fixes_ && pair->computeflag() && lammps_.atom->rmass;
     if (plain && pass_ && !recorder_.on) {
-      pass_->add_forces(*pair);
+      pass_->add_forces();
       return;
     }
     if (pass_) pass_->hand_back();

@@ -43,7 +43,7 @@ class EnginePass final : public ForcePass {
     list_.images.assign(1, SpaceLattice{});
   }
 
-  void add_forces(PairGran& pair) override {
+  void add_forces() override {
     if (holds_ && grains_have_changed()) hand_back();
     if (!holds_)
       take_over();
@@ -56,7 +56,7 @@ class EnginePass final : public ForcePass {
     pass.images = no_image_;
     pass.reach = kAnyGap;
     pass.step = lammps_.update->dt;
-    pass.advance = pair.shearupdate() != 0;
+    pass.advance = pair_.shearupdate() != 0;
     pass.bends = loading_.bends();
     std::ranges::copy(loading_.rate(), pass.curvature_rate);
     kernel_(pass);

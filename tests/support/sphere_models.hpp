@@ -2,10 +2,10 @@
 #pragma once
 // Every combination of contact models that the loop over spheres knows.
 #include <ostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/support/contact_models.hpp"
 #include "tests/support/sphere_cells.hpp"
 
 namespace polargrain::test {
@@ -19,48 +19,15 @@ inline void PrintTo(const ModelsOfSphereLoop& models, std::ostream* stream) {
   *stream << models.style;
 }
 
-/// Commands that set contact models up. All parameters that any of them asks for are there; the stiffnesses are near those of
-/// the spheres of the demonstration.
-inline std::string model_commands(const std::string& style) {
-  std::string models;
-  const auto pair = [&models](const std::string& property, const std::string& value) {
-    models += "fix " + property + " all property/global " + property + " peratomtypepair 1 " + value + "\n";
-  };
-  pair("contactModulus", "6e8");
-  pair("tangentialStiffnessRatio", "0.8");
-  pair("contactDampingRatio", "0.05");
-  pair("kn", "3e6");
-  pair("kt", "2e6");
-  pair("gamman", "3000");
-  pair("gammat", "2000");
-  pair("gamman_abs", "2");
-  pair("gammat_abs", "1");
-  pair("coefficientFriction", "0.4");
-  pair("coefficientRollingFriction", "0.1");
-  pair("rollingStiffnessRatio", "1.0");
-  pair("rollingDampingRatio", "0.05");
-  pair("coefficientRollingFrictionForce", "0.1");
-  pair("rollingFrictionForceStiffnessRatio", "0.2");
-  pair("rollingFrictionForceDampingRatio", "0.05");
-  pair("coefficientRestitution", "0.8");
-  models += "hard_particles yes\nfix youngsModulus all property/global youngsModulus peratomtype 5e9\n";
-  models += "fix poissonsRatio all property/global poissonsRatio peratomtype 0.2\n";
-  models += "pair_style gran model " + style + "\npair_coeff * *\ntimestep 1.5e-6\n";
-  return models;
-}
+inline const ModelValues kValuesOfSpheres{
+    "3000",  "2000",
+    "2",     "1",
+    "0.1",   "hard_particles yes\nfix youngsModulus all property/global youngsModulus peratomtype 5e9\n",
+    "1.5e-6"};
 
 /// The spheres of the demonstration with other contact models.
 inline CellDefinition sphere_cell_of(const std::string& style) {
-  CellDefinition definition = linear_spheres();
-  std::string& script = definition.script;
-  const auto start = script.find("fix             contact_modulus");
-  const auto rest = script.find("fix             integrate", start);
-  if (start == std::string::npos || rest == std::string::npos)
-    throw std::logic_error("the script of the spheres has changed");
-  script.replace(start, rest - start, model_commands(style));
-  definition.packing.pressure = 0.0;  // made under another law: the stress at rest is another too
-  definition.control.tangent = CellTangent::none;
-  return definition;
+  return under_models(linear_spheres(), model_commands(style, kValuesOfSpheres));
 }
 
 inline const std::vector<ModelsOfSphereLoop> kCombinationsOfSphereLoop{

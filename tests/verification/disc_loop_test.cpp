@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "tests/support/cell_fixture.hpp"
+#include "tests/support/contact_models.hpp"
 #include "tests/support/plane_cells.hpp"
 
 namespace polargrain::dem {
@@ -25,45 +26,13 @@ void PrintTo(const Models& models, std::ostream* stream) {
   *stream << models.style;
 }
 
-/// A cell of the demonstration's packing with other contact models. All parameters that any of them asks for are
-/// there; the stiffnesses are near those that the packing was made with.
+/// A cell of the demonstration's packing with other contact models.
 CellDefinition cell_of(const std::string& style) {
-  CellDefinition definition = test::demo_cell();
-  std::string& script = definition.script;
-  const auto start = script.find("fix             contact_modulus");
-  const auto end = script.find("# Stable", start);
-  const auto rest = script.find("fix             integrate", start);
-  if (start == std::string::npos || rest == std::string::npos)
-    throw std::logic_error("the script of the demonstration has changed");
-  static_cast<void>(end);
-  std::string models;
-  const auto pair = [&models](const std::string& property, const std::string& value) {
-    models += "fix " + property + " all property/global " + property + " peratomtypepair 1 " + value + "\n";
-  };
-  pair("contactModulus", "6e8");
-  pair("tangentialStiffnessRatio", "0.8");
-  pair("contactDampingRatio", "0.05");
-  pair("kn", "3e6");
-  pair("kt", "2e6");
-  pair("gamman", "300");
-  pair("gammat", "200");
-  pair("gamman_abs", "20");
-  pair("gammat_abs", "10");
-  pair("coefficientFriction", "0.4");
-  pair("coefficientRollingFriction", "0.2");
-  pair("rollingStiffnessRatio", "1.0");
-  pair("rollingDampingRatio", "0.05");
-  pair("coefficientRollingFrictionForce", "0.1");
-  pair("rollingFrictionForceStiffnessRatio", "0.2");
-  pair("rollingFrictionForceDampingRatio", "0.05");
-  pair("coefficientRestitution", "0.8");
-  models += "fix youngsModulus all property/global youngsModulus peratomtype 8e8\n";
-  models += "fix poissonsRatio all property/global poissonsRatio peratomtype 0.2\n";
-  models += "pair_style gran model " + style + "\npair_coeff * *\ntimestep 2e-5\n";
-  script.replace(start, rest - start, models);
-  definition.packing.pressure = 0.0;  // made under another law: the stress at rest is another too
-  definition.control.tangent = CellTangent::none;
-  return definition;
+  static const test::ModelValues kValues{
+      "300", "200", "20",
+      "10",  "0.2", "fix youngsModulus all property/global youngsModulus peratomtype 8e8\n",
+      "2e-5"};
+  return test::under_models(test::demo_cell(), test::model_commands(style, kValues));
 }
 
 const std::vector<Models> kCombinations{

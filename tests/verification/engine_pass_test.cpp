@@ -38,7 +38,7 @@ std::string scene(const std::string& style, int dimension, const std::string& fu
                        "\natom_style granular\natom_modify map array\nboundary p p p\nnewton off\n"
                        "communicate single vel yes\nread_data ${packing}\nneighbor 0.00005 bin\n"
                        "neigh_modify delay 0\n" +
-                       test::model_commands(style) + "fix integrate all nve/sphere\n";
+                       test::model_commands(style, test::kValuesOfSpheres) + "fix integrate all nve/sphere\n";
   if (dimension == 2) script += "fix plane all enforce2d\n";
   return script + further + "variable wave atom " + std::to_string(kFastest) +
          "*sin(40*y)\nvelocity all set v_wave NULL NULL\nthermo 1000\n";
