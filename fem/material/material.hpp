@@ -22,7 +22,8 @@ struct Figure {
 
 /// How the steps to come ask a material.
 struct Asking {
-  /// Explicit steps: each is evaluated once, and committed. Else iterations ask again and again from the same state.
+  /// Explicit steps: each is evaluated once, and committed; a SlipDriven material once more, with the same strains and the slips
+  /// that follow from its answers. Else iterations ask again and again from the same state.
   bool once = false;
   double seconds = 0.0;  ///< that such a step takes; 0: steps have no time of their own
 };

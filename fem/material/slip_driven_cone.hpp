@@ -30,6 +30,8 @@ class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
   void allocate(std::size_t points) override;
   void set_initial_stress(std::size_t point, const Vector& stress) override;
   [[nodiscard]] bool can_turn() const override { return true; }
+  /// In explicit steps its stress has some damping (kDampingOfSteps).
+  void expect(const Asking& asking) override { asks_once_ = asking.once; }
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   void revert() override;
@@ -44,6 +46,7 @@ class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
   [[nodiscard]] double slip_stiffness() const override { return 3.0 * frame_.moduli.shear(); }
 
  private:
+  bool asks_once_ = false;  ///< the steps are explicit
   struct State {
     ScaledVector<double, dim> stress;  ///< scaled, Pa
     double slip;                       ///< gamma_p

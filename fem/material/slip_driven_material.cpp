@@ -141,7 +141,12 @@ double SlipDrivenMaterial<dim>::slip_stiffness() const {
 template <int dim>
 void SlipDrivenMaterial<dim>::evaluate(std::span<const Increment<dim>> increments,
                                        std::span<Response<dim>> responses) {
-  material_->evaluate(increments, responses);
+  if (asked_.empty()) {
+    material_->evaluate(increments, responses);
+    if (asks_once_) asked_.assign(responses.begin(), responses.end());
+  } else {
+    std::ranges::copy(asked_, responses.begin());
+  }
   for (std::size_t point = 0; point < committed_.size(); ++point) {
     trial_[point] = committed_[point];
     trial_answers_[point] = answers_[point];
@@ -178,8 +183,8 @@ void SlipDrivenMaterial<dim>::answer(std::size_t point, const State& start, cons
     return;
   }
   const double own = direction.dot(response.stress);
-  end.overstress = start.overstress + stiffness * (2.0 * direction.dot(strain) - kShear * slip) -
-                   (own - direction.dot(start.stress));
+  const double elastic = stiffness * (2.0 * direction.dot(strain) - kShear * slip);  // growth of n:T
+  end.overstress = start.overstress + elastic - (own - direction.dot(start.stress));
   const Vector overstress_by_strain = 2.0 * stiffness * direction - response.tangent.transpose() * direction;
   answer.drive = kShear * (end.overstress - kRoundingOfSlip * norm_of_stress<dim>(start.stress));
   answer.scale = kShear * (std::abs(own) + std::abs(own + end.overstress));
@@ -187,6 +192,7 @@ void SlipDrivenMaterial<dim>::answer(std::size_t point, const State& start, cons
   answer.drive_by_slip = -kShear * kShear * stiffness;
   answer.stress_by_slip = -2.0 * kShear * stiffness * direction;
   response.stress += 2.0 * end.overstress * direction;
+  if (asks_once_) response.stress += 2.0 * kDampingOfSteps * elastic * direction;
   response.tangent += 2.0 * direction * overstress_by_strain.transpose();
 }
 
@@ -195,6 +201,7 @@ void SlipDrivenMaterial<dim>::commit() {
   material_->commit();
   committed_ = trial_;
   answers_ = trial_answers_;
+  asked_.clear();
   std::ranges::fill(slips_, 0.0);
 }
 
@@ -203,6 +210,7 @@ void SlipDrivenMaterial<dim>::revert() {
   material_->revert();
   trial_ = committed_;
   trial_answers_ = answers_;
+  asked_.clear();
   std::ranges::fill(slips_, 0.0);
 }
 

@@ -31,9 +31,15 @@ class SlipDrivenMaterial : public Material<dim>, public SlipDriven<dim> {
   void set_initial_stress(std::size_t point, const Vector& stress) override;
   [[nodiscard]] bool can_turn() const override { return material_->can_turn(); }
   [[nodiscard]] double moment_length() const override { return material_->moment_length(); }
-  void expect(const Asking& asking) override { material_->expect(asking); }
+  void expect(const Asking& asking) override {
+    asks_once_ = asking.once;
+    material_->expect(asking);
+  }
+  /// In explicit steps the material is asked the first time alone.
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   [[nodiscard]] bool confirm() override { return material_->confirm(); }
+  void settle() override { material_->settle(); }
+  [[nodiscard]] Unrest unrest() const override { return material_->unrest(); }
   void commit() override;
   void revert() override;
   void save(ArchiveWriter& archive) const override;
@@ -63,6 +69,9 @@ class SlipDrivenMaterial : public Material<dim>, public SlipDriven<dim> {
 
   std::shared_ptr<Material<dim>> material_;
   bool is_at_rest_ = true;  ///< nothing was evaluated yet
+  bool asks_once_ = false;  ///< the steps are explicit
+  std::vector<Response<dim>>
+      asked_;  ///< then: answers of the material in this step; empty: it was not asked yet
   std::vector<State> committed_, trial_;
   std::vector<SlipAnswer<dim>> answers_, trial_answers_;
   std::vector<double> slips_;  ///< growth over the step

@@ -64,6 +64,8 @@ struct StageBegin {
 ///
 /// Order of calls: allocate once, by the solver that is made; evaluate with an increment of zero and commit for the initial state; then per step any number of evaluate,
 /// each perhaps followed by tangent, ended by commit or revert. A step begins with an increment of zero, for its predictor.
+/// Explicit steps ask the materials once, with the displacements of their end and fields as they were. Then fields that do not
+/// store are balanced there, and the materials are asked again with the same strains (Material::expect, Asking::once).
 template <int dim>
 class Contribution {
  public:
@@ -131,6 +133,8 @@ class Contribution {
   [[nodiscard]] virtual bool depends_on_duration() const { return false; }
   /// Whether its forces may stand in steps that are not balanced (Solver::advance_explicit).
   [[nodiscard]] virtual bool takes_explicit_steps() const { return false; }
+  /// Whether its fields stiffen the body when nothing flows, as water does, by a definite matrix. Else they only soften it.
+  [[nodiscard]] virtual bool fields_store() const { return true; }
   /// Work over the step that was evaluated last, J (in the plane per m of thickness), of loads that it brings.
   [[nodiscard]] virtual double work_from_outside() const { return 0.0; }
   /// Pairs of nodes that it holds together in all directions: parts of a body that hang on each other by it.

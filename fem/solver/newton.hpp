@@ -10,6 +10,7 @@
 #include "fem/solver/constraints.hpp"
 #include "fem/solver/contributions.hpp"
 #include "fem/solver/discretisation.hpp"
+#include "fem/solver/field_balance.hpp"
 #include "fem/solver/linear_solver.hpp"
 #include "fem/solver/loads.hpp"
 #include "fem/solver/nodal_masses.hpp"
@@ -87,6 +88,8 @@ class Newton {
   /// Moves the free nodal values by `moved` (in the order of the equations), the given ones to `time`, evaluates and commits,
   /// in balance or not: an explicit step. @param released see StepGoal
   [[nodiscard]] Attempt go_on(double time, double released, const Eigen::VectorXd& moved, StepReport& report);
+  /// Behind a row of explicit steps: the next one has the bits of a run that goes on from here.
+  void end_explicit_row() { field_balance_.forget(); }
   /// Loads less internal forces of the committed state.
   [[nodiscard]] Eigen::VectorXd unbalanced() const;
   /// The same of the last evaluation, which go_on has committed.
@@ -170,8 +173,10 @@ class Newton {
   /// of the committed state gives the forces that hold the free entries while the given ones are at their largest. The largest
   /// moments of the loads and the forces held back are added. Moments count over the reference length.
   [[nodiscard]] double force_of_path() const;
+  /// Whether fields follow the answers of the materials (Contribution::fields_store).
+  [[nodiscard]] bool fields_follow_answers() const;
   /// Fields follow explicit steps implicitly: gives their free entries of the iterate the values with which their rows vanish
-  /// while all displacements stay. The rows must be linear in them. @returns why it cannot; empty: done
+  /// while all displacements stay. Rows that store must be linear in them. @returns why it cannot; empty: done
   [[nodiscard]] std::string carry_fields(Iterate& iterate);
   /// By element: the stiffness that fields add to displacements when nothing flows, condensed; empty without fields.
   /// @throws RunError where a field stores nothing
@@ -236,6 +241,7 @@ class Newton {
   bool is_balanced_at_time_ = false;  ///< the committed state: by iterations, at a given time
   Eigen::VectorXd scaling_;           ///< of the equations (equation_scaling.hpp); empty without fields
   NodalForces contributed_;           ///< of the evaluation made last
+  FieldBalance<dim> field_balance_;   ///< of explicit steps
   Anderson anderson_;
   bool converges_fast_ = false;  ///< the last iteration needs no acceleration
   Discretisation<dim> start_;    ///< large deformation: at the start of the step

@@ -4,6 +4,7 @@
 
 #include "fem/element/dofs.hpp"
 #include "fem/material/polar_decomposition.hpp"
+#include "fem/material/rotation.hpp"
 #include "fem/solver/newton.hpp"
 #include "fem/solver/residual_floor.hpp"
 

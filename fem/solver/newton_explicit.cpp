@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "common/error.hpp"
 #include "fem/mesh/box_around.hpp"
@@ -24,49 +25,26 @@ double Newton<dim>::force_of_path() const {
   return sum;
 }
 
-namespace {
-
-/// Places of an element's entries in its own matrices.
-struct PartsOfElement {
-  std::vector<Eigen::Index> mechanics;
-  std::vector<Eigen::Index> fields;
-};
-
-PartsOfElement parts_of(const std::vector<int>& entries, Eigen::Index mechanics) {
-  PartsOfElement parts;
-  for (std::size_t k = 0; k < entries.size(); ++k)
-    (entries[k] < mechanics ? parts.mechanics : parts.fields).push_back(static_cast<Eigen::Index>(k));
-  return parts;
+template <int dim>
+bool Newton<dim>::fields_follow_answers() const {
+  return !std::ranges::all_of(problem.contributions, [](const auto& one) { return one->fields_store(); });
 }
-
-}  // namespace
 
 template <int dim>
 std::string Newton<dim>::carry_fields(Iterate& iterate) {
   const int mechanical = constraints.mechanical_unknowns();
   const int unknowns = constraints.field_unknowns();
   if (unknowns == 0) return {};
+  if (fields_follow_answers()) {
+    const auto evaluate = [&](const Eigen::VectorXd& increment) {
+      return contribute(iterate.time, increment);
+    };
+    return field_balance_.balance(problem, constraints, evaluate, contributed_, iterate.displacement);
+  }
   if (std::string why = contribute(iterate.time, iterate.displacement); !why.empty()) return why;
   const Eigen::VectorXd rows =
       constraints.restrict_to_free(contributed_.internal).segment(mechanical, unknowns);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& contribution : problem.contributions) {
-    for (std::size_t e = 0; e < contribution->elements(); ++e) {
-      const std::vector<int>& own = contribution->entries(e);
-      const PartsOfElement parts = parts_of(own, constraints.places().mechanics());
-      if (parts.fields.empty() || !contribution->is_active(e)) continue;
-      const Eigen::MatrixXd tangent = contribution->tangent(e);
-      const auto unknown = [&](Eigen::Index k) {
-        return constraints.equation(static_cast<std::size_t>(own[static_cast<std::size_t>(k)])) - mechanical;
-      };
-      for (const Eigen::Index i : parts.fields)
-        for (const Eigen::Index j : parts.fields)
-          if (unknown(i) >= 0 && unknown(j) >= 0)
-            entries.emplace_back(unknown(i), unknown(j), -tangent(i, j));
-    }
-  }
-  Eigen::SparseMatrix<double> storage(unknowns, unknowns);
-  storage.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> storage = matrix_of_fields(problem, constraints);
   // Steps are short, so storage rules over flow and few iterations reach rounding.
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(storage);
   solver.setTolerance(1e-13);
@@ -95,9 +73,10 @@ std::vector<Eigen::MatrixXd> Newton<dim>::stiffness_of_fields() {
     throw RunError(why);
   std::vector<Eigen::MatrixXd> all(discretisation.elements());
   for (const auto& contribution : problem.contributions) {
+    if (!contribution->fields_store()) continue;
     for (std::size_t k = 0; k < contribution->elements(); ++k) {
       const std::vector<int>& own = contribution->entries(k);
-      const PartsOfElement parts = parts_of(own, constraints.places().mechanics());
+      const PartsOfElement parts = parts_of_element(own, constraints.places().mechanics());
       if (parts.fields.empty() || !contribution->is_active(k)) continue;
       std::vector<int> moved;
       for (const Eigen::Index i : parts.mechanics) moved.push_back(own[static_cast<std::size_t>(i)]);
@@ -136,12 +115,26 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
         false,
         "a point would be strained by more than `largest_strain` in one explicit step: the nodes move too fast"};
   if (!contributions.is_empty()) contributions.learn(discretisation, state.responses);
+  const auto failure = [&]() -> std::optional<Attempt> {
+    const Response<dim>& worst = worst_response();
+    if (worst.quality != Quality::failed) return {};
+    return Attempt{false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
+  };
+  const long evaluations = report.evaluations;
+  if (fields_follow_answers()) {
+    evaluate(iterate, report);
+    if (const auto failed = failure()) return *failed;
+  }
   if (const std::string why = carry_fields(iterate); !why.empty()) return {false, why, 0.5};
-  const double of_path = state.reference_force == 0.0 ? force_of_path() : 0.0;  // the mesh has not moved yet
+  double of_path = 0.0;
+  if (state.reference_force == 0.0) {
+    move_to_committed();
+    of_path = force_of_path();
+  }
   evaluate(iterate, report);
+  report.evaluations = evaluations + static_cast<long>(trial_.size());
   ++report.iterations;
-  if (const Response<dim>& worst = worst_response(); worst.quality == Quality::failed)
-    return {false, (refusal_.empty() ? "a material failed: " : "") + worst.message, worst.step_factor};
+  if (const auto failed = failure()) return *failed;
   const auto is_finite = [&] { return std::isfinite(iterate.residual.force + iterate.residual.moment); };
   if (!is_finite() && state.reference_force == 0.0) {  // the reference was zero
     state.reference_force = of_path;

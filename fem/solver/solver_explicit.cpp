@@ -254,6 +254,7 @@ StepReport Solver<dim>::Implementation::end_row(StepReport report, const Eigen::
   }
   state.reactions = reactions;
   this->materials.settle();
+  this->end_explicit_row();
   report.converged = true;
   report.substeps = 1;
   report.time = state.time;

@@ -78,6 +78,7 @@ void SpreadSlip<dim>::learn(const Discretisation<dim>&, std::span<const Response
   double stiffness = 0.0;
   for (const Batch& batch : batches_) stiffness = std::max(stiffness, batch.material->slip_stiffness());
   stiffness_ = stiffness;
+  for (Batch& batch : batches_) std::ranges::fill(batch.slips, 0.0);
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
     double strength = 1e-4 * stiffness_;  // a point without strength has some overstress too
@@ -110,9 +111,13 @@ std::string SpreadSlip<dim>::evaluate(const NodalStep& step, NodalForces& forces
     const Eigen::VectorXd fed = step.increment(part.slips_between);
     forces.internal(part.slips) += stiffness_ * (part.spread * felt);
     forces.parts(part.slips) += stiffness_ * (part.spread.cwiseAbs() * felt.cwiseAbs());
+    const Eigen::VectorXd growth = step.increment(part.slips);
+    const double* const asked = &batches_[part.batch].slips[part.first];
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const Point& point = part.points[i];
-      forces.internal(part.slips) -= (point.volume * answers[i].drive) * point.shape;
+      const double beyond = point.shape.dot(growth) - asked[i];
+      forces.internal(part.slips) -=
+          (point.volume * (answers[i].drive + answers[i].drive_by_slip * beyond)) * point.shape;
       const Eigen::VectorXd scale = (point.volume * answers[i].scale) * point.shape;
       forces.parts(part.slips) += scale;
       forces.parts(part.slips_between) += scale;

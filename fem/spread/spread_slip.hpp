@@ -53,6 +53,8 @@ class SpreadSlip final : public StatelessContribution<dim> {
   [[nodiscard]] std::string evaluate(const NodalStep& step, NodalForces& forces) override;
   [[nodiscard]] Eigen::MatrixXd tangent(std::size_t e) const override;
   [[nodiscard]] std::vector<std::string> faults(const Problem<dim>& problem) const override;
+  [[nodiscard]] bool takes_explicit_steps() const override { return true; }
+  [[nodiscard]] bool fields_store() const override { return false; }
 
  private:
   struct Point {
@@ -75,7 +77,7 @@ class SpreadSlip final : public StatelessContribution<dim> {
   };
   struct Batch {  ///< the points of one material
     std::shared_ptr<SlipDriven<dim>> material;
-    std::vector<double> slips;
+    std::vector<double> slips;  ///< growth over the step that the material was asked with
   };
   void add_element(const Problem<dim>& problem, const FieldPlaces<dim>& places, std::size_t field, int number,
                    std::size_t batch);

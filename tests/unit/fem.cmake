@@ -12,6 +12,7 @@ polargrain_tests(unit polargrain_fem
   unit/fem_solver_test.cpp
   unit/nodal_field_test.cpp
   unit/spread_slip_test.cpp
+  unit/spread_explicit_test.cpp
   unit/fem_noise_test.cpp
   unit/fem_probe_test.cpp
   unit/fem_output_test.cpp)

@@ -46,25 +46,26 @@ class CellRecipe : public MaterialRecipe {
     if (!cosserat_) return {};
     return resolved(*cosserat_, pool, definition_, note);
   }
-  template <int dim>
-  [[nodiscard]] std::shared_ptr<CellMaterial<dim>> cells(Pool& pool,
-                                                         const std::optional<CosseratParameters>& cosserat,
-                                                         const std::string& note) const {
-    return std::make_shared<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
+  /// @param cells a fem::Material<dim> that shows grains
+  template <int dim, class Cells>
+  [[nodiscard]] std::shared_ptr<fem::Material<dim>> with_its_slips(std::shared_ptr<Cells> cells) const {
+    if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(cells);
+    return cells;
   }
   template <int dim>
   [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
     std::string note;
     const std::optional<CosseratParameters> cosserat = this->cosserat(pool, note);
-    if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(cells<dim>(pool, cosserat, note));
-    if (!residents_) return cells<dim>(pool, cosserat, note);
+    const auto cells = [&] {
+      return std::make_unique<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
+    };
+    if (!residents_) return with_its_slips<dim>(std::shared_ptr(cells()));
     CellDefinition moving = definition_;
     moving.control.damping = residents_->damping;
     auto boxes = std::make_unique<ResidentMaterial<dim>>(pool, pool.define(std::move(moving)), cosserat,
                                                          residents_->dem_steps, iterates_ ? "" : note);
-    if (!iterates_) return boxes;
-    auto cells = std::make_unique<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
-    return std::make_shared<AutomaticCells<dim>>(std::move(cells), std::move(boxes));
+    if (!iterates_) return with_its_slips<dim>(std::shared_ptr(std::move(boxes)));
+    return with_its_slips<dim>(std::make_shared<AutomaticCells<dim>>(cells(), std::move(boxes)));
   }
 
   CellDefinition definition_;
