@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,8 @@ constexpr double kBelow = 0.3;
 constexpr int kStepsOfDiameter = 12;
 /// Before the peak, of displacement between those rows, in diameters.
 constexpr double kBeforePeak = 1.0;
+/// Of the plate before the peak, in diameters; in explicit steps.
+constexpr double kPlateBeforePeak = 1.5;
 
 /// Rows of nodes: those between two elements, and those in the middle of elements.
 int rows_of(const ColumnSpecification& column) {
@@ -38,6 +41,31 @@ double width_of(const ColumnSpecification& column) {
 
 }  // namespace
 
+namespace {
+
+std::string steps_of(const ColumnSpecification& column) {
+  std::string text = fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
+  if (column.explicit_steps) {
+    const double last = std::max(
+        2.0 * kDriven, (column.way + kPlateBeforePeak) * column.diameter / column.height);  // a shear
+    return text + fmt::format(
+                      "    - {{until: {:.17g}, count: {}}}\n  method: explicit\n", 10.0 * last,
+                      static_cast<int>(std::ceil(kStepsOfDiameter * last * column.height / column.diameter)));
+  }
+  const int last = rows_of(column) - 1;
+  const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
+  const double grow = (column.way + kBeforePeak) * column.diameter;
+  text += fmt::format(
+      "    - {{measure: {{on: y{}, from: y{}, displacement: u1}}, grow: {:.17g}, count: {}}}\n", last - below,
+      below, grow, static_cast<int>(std::ceil(kStepsOfDiameter * (column.way + kBeforePeak))));
+  text += "  cut: 12\n  noise: 2\n  acceleration: 5\n";
+  // A spread slip sets many boxes in motion at once: jumps are more, and what does not balance soon is better cut.
+  return text + (turns(column) ? "  tolerance: 1e-2\n  jumps: 20\n"
+                               : "  tolerance: 2e-2\n  jumps: 100\n  iterations: 15\n");
+}
+
+}  // namespace
+
 std::string column_case(const ColumnSpecification& column) {
   const int last = rows_of(column) - 1;
   std::string levels;
@@ -47,8 +75,6 @@ std::string column_case(const ColumnSpecification& column) {
     monitors += fmt::format("  u{0}: {{on: y{0}, displacement: u1}}\n", row);
     if (turns(column)) monitors += fmt::format("  w{0}: {{on: y{0}, displacement: w}}\n", row);
   }
-  const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
-  const double grow = (column.way + kBeforePeak) * column.diameter;
   std::string text =
       "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\n";
   if (!turns(column))
@@ -68,15 +94,7 @@ std::string column_case(const ColumnSpecification& column) {
       turns(column) ? ", w" : "");
   text += fmt::format("  - {{on: top, {}move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
                       turns(column) ? "fix: [w], " : "", column.height, column.pressure);
-  text += fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
-  text += fmt::format(
-      "    - {{measure: {{on: y{}, from: y{}, displacement: u1}}, grow: {:.17g}, count: {}}}\n", last - below,
-      below, grow, static_cast<int>(std::ceil(kStepsOfDiameter * (column.way + kBeforePeak))));
-  text += "  cut: 12\n  noise: 2\n  acceleration: 5\n";
-  // A spread slip sets many boxes in motion at once: jumps are more, and what does not balance soon is better cut.
-  text += turns(column) ? "  tolerance: 1e-2\n  jumps: 20\n"
-                        : "  tolerance: 2e-2\n  jumps: 100\n  iterations: 15\n";
-  text += "monitors:\n";
+  text += steps_of(column) + "monitors:\n";
   text += "  shear_force: {on: top, reaction: u1}\n  displacement: {on: top, displacement: u1}\n" + monitors;
   text += "output: {every: 1000, points: no, table: [displacement, shear_force]}\n";
   return text;

@@ -22,6 +22,8 @@ struct ColumnSpecification {
   /// Of slips in a classical continuum, in the place of both lengths; 0: each point slips by itself.
   double spread = 0.0;
   double way = 0.0;  ///< displacement past the peak, diameters
+  /// In place of iterations, which do not balance stiff spheres. The plate is driven all the way then.
+  bool explicit_steps = false;
 };
 
 /// The case of a column.

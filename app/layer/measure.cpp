@@ -79,6 +79,7 @@ class Measurement {
   struct Cells {
     std::filesystem::path packing;
     double diameter = 0.0;
+    bool spheres = false;
   };
 
   /// A script with what it includes is written as cell.in, which the script itself may be called.
@@ -191,7 +192,9 @@ class Measurement {
     const auto [place, is_new] = cells_.try_emplace(seed);
     if (is_new) {
       place->second.packing = packing(options_.cell_grains, seed);
-      place->second.diameter = 2.0 * read_packing(place->second.packing).mean_radius();
+      const Packing made = read_packing(place->second.packing);
+      place->second.diameter = 2.0 * made.mean_radius();
+      place->second.spheres = made.dimension == 3;
     }
     return place->second;
   }
@@ -209,6 +212,7 @@ class Measurement {
     (description.spreads ? column.spread : column.internal_length) = first * diameter;
     if (second) column.plastic_length = *second * diameter;
     column.way = options_.way;
+    column.explicit_steps = cells.spheres;
     const std::string lengths = description.spreads ? fmt::format("spread{:g}", first)
                                 : second            ? fmt::format("lc{:g}-lp{:g}", first, *second)
                                                     : fmt::format("lc{:g}", first);

@@ -203,9 +203,9 @@ def thickness(rows, centre, height):
 WINDOWS = (1.0, 2.0, 3.0, 4.0)  # middles, past the peak, d
 
 
-def of_column(rows):
+def of_column(rows, height=HEIGHT):
     figures = softening([row[0] for row in rows], [row[1] for row in rows])
-    return {**figures, **{f"thickness {at:g} d": thickness(rows, figures["at"] + at, HEIGHT) for at in WINDOWS}}
+    return {**figures, **{f"thickness {at:g} d": thickness(rows, figures["at"] + at, height) for at in WINDOWS}}
 
 
 def of_layer(folder, diameter=DIAMETER, pressure=PRESSURE):

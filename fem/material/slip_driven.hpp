@@ -33,6 +33,8 @@ class SlipDriven {
   virtual void set_slips(std::span<const double> increments) = 0;
   /// Of the last evaluation; behind commit and revert of the committed state. One a point.
   [[nodiscard]] virtual std::span<const SlipAnswer<dim>> slip_answers() const = 0;
+  /// Whether the steps to come are explicit (Asking::once).
+  [[nodiscard]] virtual bool is_explicit() const = 0;
   /// -d drive / d slip of a law without hardening, Pa: overstresses are measured by it.
   [[nodiscard]] virtual double slip_stiffness() const = 0;
 };

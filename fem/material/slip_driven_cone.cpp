@@ -133,7 +133,7 @@ void SlipDrivenCone<dim>::evaluate(std::span<const Increment<dim>> increments,
     SlipAnswer<dim>& own = trial_answers_[i];
     responses[i] = Response<dim>{};
     answer(committed_[i], step.stretch.strain(), slips_[i], trial_[i], responses[i], own);
-    if (asks_once_)
+    if (is_explicit_)
       responses[i].stress +=
           kDampingOfSteps * frame_.unscaled_stress(trial_[i].stress - committed_[i].stress);
     if (increments[i].configuration == Configuration::fixed) continue;

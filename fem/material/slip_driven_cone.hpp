@@ -31,7 +31,7 @@ class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
   void set_initial_stress(std::size_t point, const Vector& stress) override;
   [[nodiscard]] bool can_turn() const override { return true; }
   /// In explicit steps its stress has some damping (kDampingOfSteps).
-  void expect(const Asking& asking) override { asks_once_ = asking.once; }
+  void expect(const Asking& asking) override { is_explicit_ = asking.once; }
   void evaluate(std::span<const Increment<dim>> increments, std::span<Response<dim>> responses) override;
   void commit() override;
   void revert() override;
@@ -43,10 +43,11 @@ class SlipDrivenCone final : public Material<dim>, public SlipDriven<dim> {
 
   void set_slips(std::span<const double> increments) override;
   [[nodiscard]] std::span<const SlipAnswer<dim>> slip_answers() const override { return trial_answers_; }
+  [[nodiscard]] bool is_explicit() const override { return is_explicit_; }
   [[nodiscard]] double slip_stiffness() const override { return 3.0 * frame_.moduli.shear(); }
 
  private:
-  bool asks_once_ = false;  ///< the steps are explicit
+  bool is_explicit_ = false;  ///< the steps are explicit
   struct State {
     ScaledVector<double, dim> stress;  ///< scaled, Pa
     double slip;                       ///< gamma_p

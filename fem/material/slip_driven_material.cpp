@@ -143,7 +143,7 @@ void SlipDrivenMaterial<dim>::evaluate(std::span<const Increment<dim>> increment
                                        std::span<Response<dim>> responses) {
   if (asked_.empty()) {
     material_->evaluate(increments, responses);
-    if (asks_once_) asked_.assign(responses.begin(), responses.end());
+    if (is_explicit_) asked_.assign(responses.begin(), responses.end());
   } else {
     std::ranges::copy(asked_, responses.begin());
   }
@@ -192,7 +192,7 @@ void SlipDrivenMaterial<dim>::answer(std::size_t point, const State& start, cons
   answer.drive_by_slip = -kShear * kShear * stiffness;
   answer.stress_by_slip = -2.0 * kShear * stiffness * direction;
   response.stress += 2.0 * end.overstress * direction;
-  if (asks_once_) response.stress += 2.0 * kDampingOfSteps * elastic * direction;
+  if (is_explicit_) response.stress += 2.0 * kDampingOfSteps * elastic * direction;
   response.tangent += 2.0 * direction * overstress_by_strain.transpose();
 }
 

@@ -32,7 +32,7 @@ class SlipDrivenMaterial : public Material<dim>, public SlipDriven<dim> {
   [[nodiscard]] bool can_turn() const override { return material_->can_turn(); }
   [[nodiscard]] double moment_length() const override { return material_->moment_length(); }
   void expect(const Asking& asking) override {
-    asks_once_ = asking.once;
+    is_explicit_ = asking.once;
     material_->expect(asking);
   }
   /// In explicit steps the material is asked the first time alone.
@@ -53,6 +53,7 @@ class SlipDrivenMaterial : public Material<dim>, public SlipDriven<dim> {
 
   void set_slips(std::span<const double> increments) override;
   [[nodiscard]] std::span<const SlipAnswer<dim>> slip_answers() const override { return trial_answers_; }
+  [[nodiscard]] bool is_explicit() const override { return is_explicit_; }
   /// 3 G at rest; 0 before the first evaluation.
   [[nodiscard]] double slip_stiffness() const override;
 
@@ -68,8 +69,8 @@ class SlipDrivenMaterial : public Material<dim>, public SlipDriven<dim> {
   void answer(std::size_t point, const State& start, const Vector& strain, Response<dim>& response);
 
   std::shared_ptr<Material<dim>> material_;
-  bool is_at_rest_ = true;  ///< nothing was evaluated yet
-  bool asks_once_ = false;  ///< the steps are explicit
+  bool is_at_rest_ = true;    ///< nothing was evaluated yet
+  bool is_explicit_ = false;  ///< the steps are explicit
   std::vector<Response<dim>>
       asked_;  ///< then: answers of the material in this step; empty: it was not asked yet
   std::vector<State> committed_, trial_;

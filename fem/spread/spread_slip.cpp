@@ -76,14 +76,19 @@ void SpreadSlip<dim>::add_element(const Problem<dim>& problem, const FieldPlaces
 template <int dim>
 void SpreadSlip<dim>::learn(const Discretisation<dim>&, std::span<const Response<dim>>) {
   double stiffness = 0.0;
-  for (const Batch& batch : batches_) stiffness = std::max(stiffness, batch.material->slip_stiffness());
+  bool is_explicit = false;
+  for (const Batch& batch : batches_) {
+    stiffness = std::max(stiffness, batch.material->slip_stiffness());
+    is_explicit = is_explicit || batch.material->is_explicit();
+  }
   stiffness_ = stiffness;
+  const double overstress = is_explicit ? options_.overstress_of_explicit_steps : options_.overstress;
   for (Batch& batch : batches_) std::ranges::fill(batch.slips, 0.0);
   for (Part& part : elements_) {
     const auto answers = batches_[part.batch].material->slip_answers().subspan(part.first);
     double strength = 1e-4 * stiffness_;  // a point without strength has some overstress too
     for (std::size_t i = 0; i < part.points.size(); ++i) strength = std::max(strength, answers[i].scale);
-    part.resistance = options_.overstress * strength / stiffness_;
+    part.resistance = overstress * strength / stiffness_;
   }
 }
 

@@ -18,6 +18,9 @@ struct SpreadOptions {
   /// Overstress that a step needs for a growth of the source of 1, over the strength at its start (SlipAnswer::scale). It decides
   /// where neighbouring lines could slip alike; the smaller the steps, the smaller the overstress.
   double overstress = 0.01;
+  /// The same of explicit steps, in which sources grow by a thousandth or less: of the strength that is as little. With less of it
+  /// nodes would begin and end to slip in each step, which cost more than the boxes.
+  double overstress_of_explicit_steps = 1.0;
   /// Of the rows of both fields (NodalField::tolerance).
   double tolerance = 1e-8;
 };

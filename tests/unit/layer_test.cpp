@@ -260,5 +260,21 @@ TEST(LayerScript, RefusesWhatCannotBeALayer) {
             std::string::npos);
 }
 
+TEST(LayerColumn, OfStiffGrainsDrivesItsPlateAllTheWayInExplicitSteps) {
+  ColumnSpecification column;
+  column.diameter = 0.01;
+  column.height = 0.2;
+  column.spread = 0.05;
+  column.way = 4.0;
+  EXPECT_NE(column_case(column).find("measure"), std::string::npos);
+  EXPECT_EQ(column_case(column).find("explicit"), std::string::npos);
+  column.explicit_steps = true;
+  const std::string text = column_case(column);
+  EXPECT_EQ(text.find("measure"), std::string::npos);
+  EXPECT_NE(text.find("method: explicit"), std::string::npos);
+  // The plate goes the height by time 10, and 5.5 diameters of 10 mm are 2.75 of that; twelve rows a diameter.
+  EXPECT_NE(text.find("- {until: 2.75, count: 66}"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace polargrain::app

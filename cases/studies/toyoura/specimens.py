@@ -4,6 +4,7 @@
 
     python3 specimens.py -o results                      specimens of three packings at 49 and 98 kPa, other meshes and lengths
     python3 specimens.py -o results --only '49kPa-4x8-lc2-*'
+    python3 specimens.py -o results --only '*-spread*'    boxes in explicit steps, whose slips are spread over 5.4 d50
     python3 specimens.py -o results --report             tables and figure of what is there
     python3 specimens.py -o results --list
 
@@ -25,6 +26,8 @@ D50 = 5.0      # mm, of the spheres (spheres_packing.yaml)
 WIDTH = 90.0   # mm
 HEIGHT = 180.0
 END = 0.05     # axial strain
+SPREAD = 5.4   # d50: of layers of discs (docs/studies/internal_length.md)
+PACE = 3e-4    # of explicit steps
 # Void ratio of the specimen and of its weak element, by pressure (kPa): of the two curves, and of a looser row of the peaks.
 SANDS = {49: (0.716, 0.740), 98: (0.656, 0.721)}
 
@@ -35,10 +38,12 @@ class Specimen:
     across: int   # elements; twice as many along the height
     lc: float     # mm
     seed: int     # of both packings
+    spread: float = 0.0  # of slips, d50: boxes themselves in explicit steps, elements of one point, and no lc
 
     @property
     def group(self):
-        return f"{self.pressure}kPa-{self.across}x{2 * self.across}-lc{self.lc:g}"
+        length = f"spread{self.spread:g}" if self.spread else f"lc{self.lc:g}"
+        return f"{self.pressure}kPa-{self.across}x{2 * self.across}-{length}"
 
     @property
     def name(self):
@@ -46,7 +51,8 @@ class Specimen:
 
 
 SPECIMENS = [*(Specimen(pressure, 4, 2, seed) for seed in (1, 2, 3) for pressure in SANDS),
-             *(Specimen(49, across, lc, seed) for seed in (1, 2, 3) for across, lc in ((4, 5), (4, 10), (6, 2), (6, 5), (12, 2)))]
+             *(Specimen(49, across, lc, seed) for seed in (1, 2, 3) for across, lc in ((4, 5), (4, 10), (6, 2), (6, 5), (12, 2))),
+             *(Specimen(pressure, 8, 0, seed, SPREAD) for seed in (1, 2, 3) for pressure in SANDS)]
 
 
 def options():
@@ -88,10 +94,18 @@ class Specimens:
         size = WIDTH / one.across
         strain = self.given.strain / 100
         settings = [f"mesh.rectangle.elements=[{one.across}, {2 * one.across}]", f"mesh.rectangle.patch=[{size:g} mm, {size:g} mm]",
-                    f"boundary.2.move.u2={-strain * HEIGHT:.10g} mm", f"boundary.3.pressure={one.pressure} kPa",
-                    f"steps.count={round(1000 * strain)}"]
+                    f"boundary.2.move.u2={-strain * HEIGHT:.10g} mm", f"boundary.3.pressure={one.pressure} kPa"]
+        if not one.spread:
+            settings.append(f"steps.count={round(1000 * strain)}")
         for sand, void_ratio in zip(("sand", "weak_sand"), SANDS[one.pressure]):
-            settings += [f"materials.{sand}.packing={self.packing(one.pressure, void_ratio, one.seed)}", f"materials.{sand}.lc={one.lc:g} mm"]
+            packing = self.packing(one.pressure, void_ratio, one.seed)
+            if one.spread:
+                settings.append(f"materials.{sand}={{model: cell, script: best.in, packing: {packing}}}")
+            else:
+                settings += [f"materials.{sand}.packing={packing}", f"materials.{sand}.lc={one.lc:g} mm"]
+        if one.spread:
+            settings += ["mesh.element=Q4R", f"continuum={{kind: cauchy, spread: {one.spread * D50:g} mm}}",
+                         f"steps={{count: {round(1000 * strain)}, method: explicit, pace: {PACE:g}}}"]
         command = ["run", self.study.folder / "specimen.yaml", "-o", output, "--checkpoint-minutes", 2, "--quiet",
                    *(word for setting in settings for word in ("--set", setting))]
         if (output / "checkpoint.h5").exists():
