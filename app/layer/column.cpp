@@ -43,15 +43,17 @@ double width_of(const ColumnSpecification& column) {
 
 namespace {
 
+/// In explicit steps, where the plate goes the height by time 10.
+double end_of_drive(const ColumnSpecification& column) {
+  return 10.0 * std::max(2.0 * kDriven, (column.way + kPlateBeforePeak) * column.diameter / column.height);
+}
+
 std::string steps_of(const ColumnSpecification& column) {
   std::string text = fmt::format("steps:\n  stages:\n    - {{until: {:.17g}, count: 8}}\n", 10.0 * kDriven);
-  if (column.explicit_steps) {
-    const double last = std::max(
-        2.0 * kDriven, (column.way + kPlateBeforePeak) * column.diameter / column.height);  // a shear
-    return text + fmt::format(
-                      "    - {{until: {:.17g}, count: {}}}\n  method: explicit\n", 10.0 * last,
-                      static_cast<int>(std::ceil(kStepsOfDiameter * last * column.height / column.diameter)));
-  }
+  if (column.explicit_steps)
+    return text +
+           fmt::format("    - {{until: {:.8g}, count: {}}}\n  method: explicit\n", end_of_drive(column),
+                       static_cast<int>(std::ceil(kStepsOfDiameter * (column.way + kPlateBeforePeak))));
   const int last = rows_of(column) - 1;
   const int below = 2 * static_cast<int>(std::lround(kBelow * column.elements));
   const double grow = (column.way + kBeforePeak) * column.diameter;
@@ -92,8 +94,10 @@ std::string column_case(const ColumnSpecification& column) {
   text += fmt::format(
       "}}\nregions: {{all: sand}}\nboundary:\n  - {{on: left, tie: right}}\n  - {{on: bottom, fix: [u1, u2{}]}}\n",
       turns(column) ? ", w" : "");
-  text += fmt::format("  - {{on: top, {}move: {{u1: [[0, 0], [10, {:.17g}]]}}, pressure: {:.17g}}}\n",
-                      turns(column) ? "fix: [w], " : "", column.height, column.pressure);
+  const double driven = column.explicit_steps ? std::max(10.0, end_of_drive(column)) : 10.0;
+  text +=
+      fmt::format("  - {{on: top, {}move: {{u1: [[0, 0], [{:.8g}, {:.17g}]]}}, pressure: {:.17g}}}\n",
+                  turns(column) ? "fix: [w], " : "", driven, 0.1 * driven * column.height, column.pressure);
   text += steps_of(column) + "monitors:\n";
   text += "  shear_force: {on: top, reaction: u1}\n  displacement: {on: top, displacement: u1}\n" + monitors;
   text += "output: {every: 1000, points: no, table: [displacement, shear_force]}\n";

@@ -9,30 +9,17 @@
 
 #include "common/elementary_functions.hpp"
 #include "common/error.hpp"
-#include "common/seconds.hpp"
 #include "fem/material/rotation.hpp"
 #include "fem/mesh/box_around.hpp"
 #include "fem/solver/equation_scaling.hpp"
 #include "fem/solver/free_rotations.hpp"
 #include "fem/solver/residual_floor.hpp"
 #include "fem/solver/stabilisation.hpp"
+#include "fem/solver/stopwatch.hpp"
 #include "fem/solver/why_singular.hpp"
 
 namespace polargrain::fem {
 namespace {
-
-/// Adds the wall time of its life to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += seconds_since(start_); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_;
-  Clock::time_point start_ = Clock::now();
-};
 
 template <int dim>
 Problem<dim> checked(Problem<dim> problem) {

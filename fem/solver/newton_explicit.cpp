@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "fem/mesh/box_around.hpp"
 #include "fem/solver/newton.hpp"
+#include "fem/solver/stopwatch.hpp"
 
 namespace polargrain::fem {
 
@@ -125,7 +126,10 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
     evaluate(iterate, report);
     if (const auto failed = failure()) return *failed;
   }
-  if (const std::string why = carry_fields(iterate); !why.empty()) return {false, why, 0.5};
+  {
+    const Stopwatch watch(report.solve_seconds);
+    if (const std::string why = carry_fields(iterate); !why.empty()) return {false, why, 0.5};
+  }
   double of_path = 0.0;
   if (state.reference_force == 0.0) {
     move_to_committed();

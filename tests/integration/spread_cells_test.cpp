@@ -113,6 +113,31 @@ TEST_F(SpreadCells, AUniformSpecimenInExplicitStepsBearsWhatItsCellsBear) {
   EXPECT_LE(farthest("cell", true), 0.02);
 }
 
+// Ten boxes above each other, sheared to their peak. Without the damping of n:T waves grow until nodes_unbalanced is 0.8.
+TEST_F(SpreadCells, AColumnInExplicitStepsStaysCalm) {
+  write(
+      scratch_.path() / "case.yaml",
+      "title: A column of cells that slip together\n"
+      "continuum: {kind: cauchy, spread: 54 mm, hold: [bottom, top]}\n"
+      "mesh: {rectangle: {size: [0.02 m, 0.2 m], elements: [1, 10], patch: [0.02 m, 0.1 m]}, element: Q4R}\n"
+      "materials:\n"
+      "  sand: {model: cell, script: cells/hooke_li_chu.in, packing: packing100.h5}\n"
+      "  other: {model: cell, script: cells/hooke_li_chu.in, packing: " +
+          (kSource / "cases/studies/dense100_seed2.h5").string() +
+          "}\n"
+          "regions: {patch: sand, rest: other}\n"
+          "boundary:\n"
+          "  - {on: left, tie: right}\n"
+          "  - {on: bottom, fix: [u1, u2]}\n"
+          "  - {on: top, move: {u1: 8 mm}, pressure: 100 kPa}\n"
+          "steps: {count: 20, method: explicit}\n"
+          "monitors: {top_force: {on: top, reaction: u1}}\n");
+  ASSERT_EQ(forces("column").size(), 21U);
+  const std::vector<double> unbalanced =
+      CsvTable(scratch_.path() / "column/history.csv").numbers("nodes_unbalanced");
+  EXPECT_LE(*std::ranges::max_element(unbalanced), 0.05);
+}
+
 TEST_F(SpreadCells, WorkersAndResumptionsChangeNoByte) {
   write_case(kSpread, "cell");
   expect_the_same_bytes_of_workers_and_resumptions();

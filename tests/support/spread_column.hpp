@@ -16,7 +16,7 @@
 #include "fem/spread/spread_slip.hpp"
 
 /// A column that softens where its slips are spread, and its closed form.
-namespace polargrain::testing {
+namespace polargrain::testing::spread_column {
 
 using namespace fem;
 
@@ -171,4 +171,4 @@ inline double width_of(const Solver<2>& solver) {
   return ends[1] - ends[0];
 }
 
-}  // namespace polargrain::testing
+}  // namespace polargrain::testing::spread_column

@@ -273,7 +273,9 @@ TEST(LayerColumn, OfStiffGrainsDrivesItsPlateAllTheWayInExplicitSteps) {
   EXPECT_EQ(text.find("measure"), std::string::npos);
   EXPECT_NE(text.find("method: explicit"), std::string::npos);
   // The plate goes the height by time 10, and 5.5 diameters of 10 mm are 2.75 of that; twelve rows a diameter.
-  EXPECT_NE(text.find("- {until: 2.75, count: 66}"), std::string::npos) << text;
+  EXPECT_NE(text.find("{until: 2.75, count: 66}"), std::string::npos) << text;
+  column.height = 0.04;  // 5.5 diameters are more than the height, which the plate goes by time 10
+  EXPECT_NE(column_case(column).find("[13.75, 0.055]"), std::string::npos) << column_case(column);
 }
 
 }  // namespace

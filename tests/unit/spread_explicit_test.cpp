@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Slips that are spread in explicit steps: a column against its closed form, Newton's method, bits; rows linear in parts.
+// Slips that are spread in explicit steps: bits of a run that goes on; rows linear in parts.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -8,52 +8,10 @@
 
 #include "common/memory_archive.hpp"
 #include "fem/solver/field_balance.hpp"
-#include "tests/support/spread_column.hpp"
+#include "tests/support/spread_explicit_column.hpp"
 
-using namespace polargrain;
-using namespace polargrain::fem;
-using namespace polargrain::testing;
-
+namespace polargrain::testing::spread_column {
 namespace {
-
-constexpr int kElements = 20, kSteps = 2000;
-constexpr double kFirst = 0.3e-3,
-                 kFaster =
-                     1.6;  // growth of the displacement of the top in the first row, and from row to row
-
-/// Ends that hold the slip: the waves of a driven plate would begin one there.
-Problem<2> column_of(Law (*law)(const ElastoplasticParameters<2>&)) {
-  Problem<2> problem = softening_column(kElements, kWidth, 0.5 * kHeight, law);
-  for (const char* field : kSpreadFields)
-    for (const char* end : {"bottom", "top"})
-      problem.prescribed_fields.push_back({field, end, TimeTable::constant(0.0)});
-  return problem;
-}
-
-double displacement_of(int rows) {
-  return kFirst * (std::pow(kFaster, rows) - 1.0) / (kFaster - 1.0);
-}
-
-StepReport row_of(Solver<2>& solver, int row, int steps = kSteps) {
-  return solver.advance_explicit(displacement_of(row + 1), steps,
-                                 {.speed_before = row == 0 ? 1.0 : 1.0 / kFaster});
-}
-
-TEST(spread_explicit, column_has_the_thickness_and_the_stress_of_the_closed_form) {
-  for (Law (*const law)(const ElastoplasticParameters<2>&) : {cone, answers_of}) {
-    Solver<2> solver(column_of(law), {});
-    ASSERT_TRUE(solver.begin_explicit().converged);
-    for (int row = 0; row < 5; ++row) {
-      const StepReport report = row_of(solver, row);
-      ASSERT_TRUE(report.converged) << row << " " << report.message;
-      if (row < 2) continue;  // elastic, and the onset
-      const ClosedForm exact = ClosedForm::at(displacement_of(row + 1), true);
-      // Waves of the speed of the plate are 0.4 % of the peak in the last row.
-      EXPECT_NEAR(solver.reaction("top")(0) / (kHeight / kElements), exact.stress(), 0.005 * kPeak) << row;
-      EXPECT_NEAR(width_of(solver), exact.width(), 0.05 * exact.width()) << row;
-    }
-  }
-}
 
 TEST(spread_explicit, goes_on_from_an_archive_to_the_same_bits) {
   Solver<2> whole(column_of(answers_of), {});
@@ -130,3 +88,4 @@ TEST(field_balance, finds_the_side_of_every_node) {
 }
 
 }  // namespace
+}  // namespace polargrain::testing::spread_column

@@ -20,10 +20,7 @@
 #include "fem/solver/solver.hpp"
 #include "tests/support/spread_column.hpp"
 
-using namespace polargrain;
-using namespace polargrain::fem;
-using namespace polargrain::testing;
-
+namespace polargrain::testing::spread_column {
 namespace {
 
 TEST(spread_slip, column_has_the_thickness_and_the_stress_of_the_closed_form_on_each_mesh) {
@@ -483,3 +480,4 @@ TEST(spread_slip, faults_are_named) {
 }
 
 }  // namespace
+}  // namespace polargrain::testing::spread_column

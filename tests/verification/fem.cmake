@@ -11,6 +11,7 @@ polargrain_tests(verification polargrain_fem
   verification/fem_biaxial_test.cpp
   verification/fem_softening_layer_test.cpp
   verification/spread_band_test.cpp
+  verification/spread_explicit_column_test.cpp
   verification/fem_glide_layer_test.cpp
   verification/fem_hole_test.cpp
   verification/fem_footing_test.cpp
