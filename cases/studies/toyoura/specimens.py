@@ -52,7 +52,7 @@ class Specimen:
 
 SPECIMENS = [*(Specimen(pressure, 4, 2, seed) for seed in (1, 2, 3) for pressure in SANDS),
              *(Specimen(49, across, lc, seed) for seed in (1, 2, 3) for across, lc in ((4, 5), (4, 10), (6, 2), (6, 5), (12, 2))),
-             *(Specimen(pressure, 8, 0, seed, SPREAD) for seed in (1, 2, 3) for pressure in SANDS)]
+             *(Specimen(pressure, 8, 0, seed, SPREAD) for seed in range(1, 7) for pressure in SANDS)]
 
 
 def options():
@@ -74,14 +74,18 @@ class Specimens:
         self.given = given
         # Of its tests nothing but the packings is needed: a few rows.
         self.study = study.Study(argparse.Namespace(output=given.output, kind="spheres", program=given.program, workers=given.workers,
-                                                    grains=given.grains, strain=None, seeds=[1, 2, 3]))
+                                                    grains=given.grains, strain=None, seeds=list(range(1, 7))))
         self.folder = self.study.folder / "specimens"
 
     def packing(self, pressure, void_ratio, seed):
-        """The file of a packing, under the calibrated contacts at its pressure; made with a short test where there is none."""
+        """The file of a packing, under the calibrated contacts at its pressure; made with a short test where there is none.
+        @returns nothing where no packing of the seed has that void ratio"""
         name = f"specimen-{pressure}-{void_ratio:.3f}"
         self.study.run_test(name, pressure, void_ratio, 0.002, seed)
-        with open(self.study.tests / f"{name}-seed{seed}.csv", newline="") as table:
+        file = self.study.tests / f"{name}-seed{seed}.csv"
+        if not file.exists():
+            return None
+        with open(file, newline="") as table:
             packing = next(csv.DictReader(table))["packing"]
         return next((self.study.output / "packings").glob(f"*/{packing}.h5"))
 
@@ -99,6 +103,9 @@ class Specimens:
             settings.append(f"steps.count={round(1000 * strain)}")
         for sand, void_ratio in zip(("sand", "weak_sand"), SANDS[one.pressure]):
             packing = self.packing(one.pressure, void_ratio, one.seed)
+            if packing is None:
+                print(f"{one.name}: no packing of void ratio {void_ratio:g}")
+                return
             if one.spread:
                 settings.append(f"materials.{sand}={{model: cell, script: best.in, packing: {packing}}}")
             else:
