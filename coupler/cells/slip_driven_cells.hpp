@@ -25,4 +25,11 @@ class SlipDrivenCells final : public fem::SlipDrivenMaterial<dim>, public Grains
   std::shared_ptr<const GrainsOfPoints> grains_;
 };
 
+/// A material with grains, its slips its own or those of the nodes. @param cells not null
+template <int dim, class Cells>
+std::shared_ptr<fem::Material<dim>> with_slips(const std::shared_ptr<Cells>& cells, bool spread) {
+  if (spread) return std::make_shared<SlipDrivenCells<dim>>(cells);
+  return cells;
+}
+
 }  // namespace polargrain::coupler

@@ -74,11 +74,10 @@ std::string FieldBalance<dim>::balance(const Problem<dim>& problem, const Constr
     if (std::string why = evaluate(increment); !why.empty()) return why;
     const std::vector<double> residuals =
         measure_fields<dim>(constraints.folded(forces.internal), forces.parts, constraints);
-    double excess = 0.0;  // NaN stays
+    if (!std::ranges::all_of(residuals, [](double one) { return std::isfinite(one); })) break;
+    double excess = 0.0;
     for (std::size_t field = 0; field < residuals.size(); ++field)
-      if (const double own = residuals[field] / problem.fields[field].tolerance; !(own <= excess))
-        excess = own;
-    if (!std::isfinite(excess)) break;
+      excess = std::max(excess, residuals[field] / problem.fields[field].tolerance);
     if (excess <= 1.0) return {};
     const bool falls = excess <= kProgress * last;
     if (matrix_.rows() != unknowns || (iteration > 0 && !falls)) {

@@ -46,12 +46,6 @@ class CellRecipe : public MaterialRecipe {
     if (!cosserat_) return {};
     return resolved(*cosserat_, pool, definition_, note);
   }
-  /// @param cells a fem::Material<dim> that shows grains
-  template <int dim, class Cells>
-  [[nodiscard]] std::shared_ptr<fem::Material<dim>> with_its_slips(std::shared_ptr<Cells> cells) const {
-    if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(cells);
-    return cells;
-  }
   template <int dim>
   [[nodiscard]] std::shared_ptr<fem::Material<dim>> made(Pool& pool) const {
     std::string note;
@@ -59,13 +53,13 @@ class CellRecipe : public MaterialRecipe {
     const auto cells = [&] {
       return std::make_unique<CellMaterial<dim>>(pool, pool.define(definition_), cosserat, note);
     };
-    if (!residents_) return with_its_slips<dim>(std::shared_ptr(cells()));
+    if (!residents_) return with_slips<dim>(std::shared_ptr(cells()), spreads_);
     CellDefinition moving = definition_;
     moving.control.damping = residents_->damping;
     auto boxes = std::make_unique<ResidentMaterial<dim>>(pool, pool.define(std::move(moving)), cosserat,
                                                          residents_->dem_steps, iterates_ ? "" : note);
-    if (!iterates_) return with_its_slips<dim>(std::shared_ptr(std::move(boxes)));
-    return with_its_slips<dim>(std::make_shared<AutomaticCells<dim>>(cells(), std::move(boxes)));
+    if (!iterates_) return with_slips<dim>(std::shared_ptr(std::move(boxes)), spreads_);
+    return with_slips<dim>(std::make_shared<AutomaticCells<dim>>(cells(), std::move(boxes)), spreads_);
   }
 
   CellDefinition definition_;

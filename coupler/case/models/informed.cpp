@@ -41,13 +41,6 @@ class InformedRecipe : public MaterialRecipe {
   [[nodiscard]] Slips slips() const override { return spreads_ ? Slips::spread : Slips::own; }
 
  private:
-  /// @param cells a fem::Material<dim> that shows grains
-  template <class Cells>
-  [[nodiscard]] std::shared_ptr<fem::Material<dim>> with_its_slips(
-      const std::shared_ptr<Cells>& cells) const {
-    if (spreads_) return std::make_shared<SlipDrivenCells<dim>>(cells);
-    return cells;
-  }
   template <int wanted>
   [[nodiscard]] std::shared_ptr<fem::Material<wanted>> made(Pool& pool) const {
     if constexpr (wanted == dim) {
@@ -63,8 +56,8 @@ class InformedRecipe : public MaterialRecipe {
       }
       auto material = std::make_shared<InformedMaterial<dim>>(calls_of<dim>(pool, pool.define(definition_)),
                                                               parameters, note, std::move(with_tangent));
-      if (ask_every_ == 0) return with_its_slips(material);
-      return with_its_slips(std::make_shared<GatheredMaterial<dim>>(material, ask_every_));
+      if (ask_every_ == 0) return with_slips<dim>(material, spreads_);
+      return with_slips<dim>(std::make_shared<GatheredMaterial<dim>>(material, ask_every_), spreads_);
     } else {
       throw RunError("an informed material of another dimension was asked for");
     }
