@@ -142,7 +142,7 @@ struct Outcome {
 };
 
 Outcome outcome_of(Mesh<2> mesh) {
-  constexpr int kSteps = 40;
+  constexpr int kSteps = 30;
   Solver<2> solver(specimen(std::move(mesh)), {});
   EXPECT_TRUE(solver.equilibrate().converged);
   Outcome outcome;
