@@ -39,10 +39,6 @@ double width_of(const ColumnSpecification& column) {
   return column.height / column.elements;
 }
 
-}  // namespace
-
-namespace {
-
 /// In explicit steps, where the plate goes the height by time 10.
 double end_of_drive(const ColumnSpecification& column) {
   return 10.0 * std::max(2.0 * kDriven, (column.way + kPlateBeforePeak) * column.diameter / column.height);

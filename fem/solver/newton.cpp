@@ -227,16 +227,18 @@ void Newton<dim>::find_increments(const Eigen::VectorXd& displacement_increment)
 }
 
 template <int dim>
+void Newton<dim>::ask_materials(const Iterate& iterate, StepReport& report) {
+  const Stopwatch watch(report.material_seconds);
+  find_increments(iterate.displacement);
+  if (!refusal_.empty()) return;
+  contributions.prepare({state.time, iterate.time, state.displacement, iterate.displacement});
+  materials.evaluate(increments_, trial_);
+  report.evaluations += static_cast<long>(trial_.size());
+}
+
+template <int dim>
 void Newton<dim>::evaluate(Iterate& iterate, StepReport& report) {
-  {
-    const Stopwatch watch(report.material_seconds);
-    find_increments(iterate.displacement);
-    if (refusal_.empty()) {
-      contributions.prepare({state.time, iterate.time, state.displacement, iterate.displacement});
-      materials.evaluate(increments_, trial_);
-      report.evaluations += static_cast<long>(trial_.size());
-    }
-  }
+  ask_materials(iterate, report);
   const Stopwatch watch(report.assembly_seconds);
   if (refusal_.empty() && !contributions.is_empty())
     refusal_ = contribute(iterate.time, iterate.displacement);

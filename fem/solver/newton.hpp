@@ -168,6 +168,8 @@ class Newton {
   void predict_contributions(const Iterate& iterate, Eigen::VectorXd& right_side);
   /// solve() of the tangent factorised last, for forces on the unknowns.
   [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& forces) const;
+  /// Asks the materials for the end of a step. `refusal_` says where they cannot be asked.
+  void ask_materials(const Iterate& iterate, StepReport& report);
   void evaluate(Iterate& iterate, StepReport& report);
   /// A reference force for steps of rotations or moments alone: in the first one supports react by moments only. The tangent
   /// of the committed state gives the forces that hold the free entries while the given ones are at their largest. The largest

@@ -123,7 +123,8 @@ Attempt Newton<dim>::go_on(double time, double released, const Eigen::VectorXd& 
   };
   const long evaluations = report.evaluations;
   if (fields_follow_answers()) {
-    evaluate(iterate, report);
+    ask_materials(iterate, report);
+    if (!refusal_.empty()) return {false, refusal_, 0.5};
     if (const auto failed = failure()) return *failed;
   }
   {
