@@ -41,39 +41,48 @@ POLARGRAIN_INLINE void store(Number* to, const Vector& from) {
   std::memcpy(to, &from, sizeof(Vector));
 }
 
-/// c -= l u for a tile of `Rows` rows, kept in registers.
-template <typename Registers, int Rows, typename Number = typename Registers::Number>
+/// c -= l u for a tile of `Rows` rows and `Vectors` vectors, kept in registers.
+template <typename Registers, int Rows, int Vectors, typename Number = typename Registers::Number>
 POLARGRAIN_INLINE void subtract_tile(Number* c, int c_stride, const Number* l, int l_stride, const Number* u,
                                      int u_stride, int depth) {
-  typename Registers::Vector sums[Rows][Registers::vectors];
+  typename Registers::Vector sums[Rows][Vectors];
   for (int row = 0; row < Rows; ++row)
-    for (int v = 0; v < Registers::vectors; ++v)
-      load(sums[row][v], c + row * c_stride + v * Registers::width);
+    for (int v = 0; v < Vectors; ++v) load(sums[row][v], c + row * c_stride + v * Registers::width);
   for (int k = 0; k < depth; ++k) {
-    typename Registers::Vector factors[Registers::vectors];
-    for (int v = 0; v < Registers::vectors; ++v) load(factors[v], u + k * u_stride + v * Registers::width);
+    typename Registers::Vector factors[Vectors];
+    for (int v = 0; v < Vectors; ++v) load(factors[v], u + k * u_stride + v * Registers::width);
     for (int row = 0; row < Rows; ++row)
-      for (int v = 0; v < Registers::vectors; ++v) sums[row][v] -= l[row * l_stride + k] * factors[v];
+      for (int v = 0; v < Vectors; ++v) sums[row][v] -= l[row * l_stride + k] * factors[v];
   }
   for (int row = 0; row < Rows; ++row)
-    for (int v = 0; v < Registers::vectors; ++v)
-      store(c + row * c_stride + v * Registers::width, sums[row][v]);
+    for (int v = 0; v < Vectors; ++v) store(c + row * c_stride + v * Registers::width, sums[row][v]);
+}
+
+/// c -= l u for `Rows` rows; the last tile is as narrow as kRowSlackOf asks.
+template <typename Registers, int Rows, typename Number = typename Registers::Number>
+POLARGRAIN_INLINE void subtract_rows(Number* c, int c_stride, const Number* l, int l_stride, const Number* u,
+                                     int u_stride, int columns, int depth) {
+  constexpr int wide = Registers::vectors * Registers::width;
+  constexpr int narrow = std::min(Registers::vectors, Registers::panel / Registers::width);
+  int column = 0;
+  for (; column + wide <= columns; column += wide)
+    subtract_tile<Registers, Rows, Registers::vectors>(c + column, c_stride, l, l_stride, u + column,
+                                                       u_stride, depth);
+  for (; column < columns; column += narrow * Registers::width)
+    subtract_tile<Registers, Rows, narrow>(c + column, c_stride, l, l_stride, u + column, u_stride, depth);
 }
 
 /// c -= l u; writes up to kRowSlackOf columns more than `columns`.
 template <typename Registers, int Rows = Registers::rows, typename Number = typename Registers::Number>
 POLARGRAIN_INLINE void subtract_product(Number* c, int c_stride, const Number* l, int l_stride,
                                         const Number* u, int u_stride, int rows, int columns, int depth) {
-  constexpr int width = Registers::vectors * Registers::width;
   int row = 0;
   for (; row + Rows <= rows; row += Rows)
-    for (int column = 0; column < columns; column += width)
-      subtract_tile<Registers, Rows>(c + row * c_stride + column, c_stride, l + row * l_stride, l_stride,
-                                     u + column, u_stride, depth);
+    subtract_rows<Registers, Rows>(c + row * c_stride, c_stride, l + row * l_stride, l_stride, u, u_stride,
+                                   columns, depth);
   for (; row < rows; ++row)
-    for (int column = 0; column < columns; column += width)
-      subtract_tile<Registers, 1>(c + row * c_stride + column, c_stride, l + row * l_stride, l_stride,
-                                  u + column, u_stride, depth);
+    subtract_rows<Registers, 1>(c + row * c_stride, c_stride, l + row * l_stride, l_stride, u, u_stride,
+                                columns, depth);
 }
 
 /// Brings a large enough pivot to row k of column k.
@@ -163,7 +172,7 @@ using Baseline = Registers<Number, 16, 4, 2>;  // 16 registers
 template <typename Number>
 using Avx2 = Registers<Number, 32, 4, 2>;  // 16
 template <typename Number>
-using Avx512 = Registers<Number, 64, 8, 1>;  // 32
+using Avx512 = Registers<Number, 64, 8, 2>;  // 32
 
 template <typename Number>
 bool eliminate_baseline(const FrontMatrixOf<Number>& front) {
