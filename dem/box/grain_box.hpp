@@ -6,6 +6,7 @@
 
 #include "common/state.hpp"
 #include "dem/box/box_motion.hpp"
+#include "dem/box/contact_sums.hpp"
 #include "dem/box/state_bounds.hpp"
 #include "dem/contact/contact_recorder.hpp"
 
@@ -55,6 +56,8 @@ class GrainBox {
   [[nodiscard]] virtual const Box<dim>& box() const = 0;
   /// Of the last force pass; grains are counted from 0 as in the packing.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
+  /// Of the same contacts, without a list of them where the loop can do without.
+  [[nodiscard]] virtual ContactSums<dim> contact_sums() const = 0;
   /// Resultants of the last force pass.
   [[nodiscard]] virtual Imbalance imbalance() const = 0;
   /// Rotations in the laboratory since the packing, rad.

@@ -303,10 +303,18 @@ struct Cell<dim>::ResidentKind {
     hold(box);
   }
   [[nodiscard]] ResidentAnswer answer(const Grains& box) const {
-    const CellResponse response = cell.respond(box, Tangent::Zero());
-    return {response.stress, response.couple_stress,
-            quick_force_ratio(box.imbalance(), box.contacts(), cell.protocol_.least_force()),
-            2.0 * static_cast<double>(box.contacts().size()) / cell.driver_.grains()};
+    const ContactSums<dim> sums = box.contact_sums();
+    const Eigen::Matrix3d frame = frame_in_space(box.box());
+    const double volume = cell.volume(box);
+    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+    stress.template topLeftCorner<dim, dim>() = sums.virial / volume;
+    ResidentAnswer answer;
+    answer.stress = frame * stress * frame.transpose();
+    if (cell.controlled())
+      answer.couple_stress = frame * average_couple_stress(box.contacts(), volume) * frame.transpose();
+    answer.unbalanced_force_ratio = quick_force_ratio(box.imbalance(), sums, cell.protocol_.least_force());
+    answer.coordination_number = 2.0 * sums.contacts / cell.driver_.grains();
+    return answer;
   }
   [[nodiscard]] double time_step() const { return cell.time_step_; }
   [[nodiscard]] ResidentReadOut read(Grains& box) const {

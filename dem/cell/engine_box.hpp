@@ -36,6 +36,7 @@ class EngineBox final : public GrainBox<dim> {
   }
   [[nodiscard]] const Box<dim>& box() const override { return driver_.strain().box(); }
   [[nodiscard]] std::span<const Contact> contacts() const override { return driver_.contacts(); }
+  [[nodiscard]] ContactSums<dim> contact_sums() const override { return sums_of<dim>(driver_.contacts()); }
   [[nodiscard]] Imbalance imbalance() const override { return driver_.strain().imbalance(); }
   [[nodiscard]] std::span<const double> rotations() const override { return driver_.strain().rotations(); }
   [[nodiscard]] std::span<const double> places() const override { return driver_.places(); }

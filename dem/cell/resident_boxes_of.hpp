@@ -9,17 +9,17 @@
 
 #include "common/error.hpp"
 #include "common/resident_boxes.hpp"
-#include "dem/cell/averages.hpp"
+#include "dem/box/grain_box.hpp"
 #include "dem/cell/quasi_static.hpp"
 
 namespace polargrain::dem {
 
 /// Mean unbalanced force on the grains over the mean contact force, from sums alone: no list of touched grains is made.
 /// @param least_force see unbalanced(), N
-inline double quick_force_ratio(const Imbalance& imbalance, std::span<const Contact> contacts,
-                                double least_force) {
-  const double force = std::max(mean_contact_force(contacts), least_force);
-  return contacts.empty() ? 0.0 : imbalance.force / imbalance.grains / force;
+template <int dim>
+double quick_force_ratio(const Imbalance& imbalance, const ContactSums<dim>& sums, double least_force) {
+  if (sums.contacts == 0.0) return 0.0;
+  return imbalance.force / imbalance.grains / std::max(sums.forces / sums.contacts, least_force);
 }
 
 /// The resident boxes of a cell. `Kind` says how one box is made, led and read:

@@ -172,6 +172,8 @@ void DiscBox::find_candidates() {
   wandered_ = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
   records_.resize(DiscRecord::columns * list_.second.size());
+  contacts_.clear();
+  listed_ = true;
   images_.resize(list_.images.size() + 1);
   images_.back().x = 10.0 * largest_radius_;  // of pairs that never touch
   place_images();
@@ -223,7 +225,7 @@ void DiscBox::compute_forces(bool advance, bool record) {
         list_, forces_);
   else
     run_kernel(advance, records);
-  if (record) read_records();
+  if (record) listed_ = false;
 }
 
 void DiscBox::run_kernel(bool advance, double* records) {
@@ -254,8 +256,26 @@ void DiscBox::run_kernel(bool advance, double* records) {
   pass_(pass);
 }
 
-void DiscBox::read_records() {
+std::span<const Contact> DiscBox::contacts() const {
+  if (!listed_) read_records();
+  return contacts_;
+}
+
+ContactSums<2> DiscBox::contact_sums() const {
+  if (listed_) return sums_of<2>(contacts_);
+  ContactSums<2> sums;
+  const std::size_t candidates = list_.second.size();
+  const double* const touches = &records_[DiscRecord::touches * candidates];
+  const double* const delta = &records_[DiscRecord::delta * candidates];
+  const double* const force = &records_[DiscRecord::force * candidates];
+  for (std::size_t c = 0; c < static_cast<std::size_t>(list_.rows.back()); ++c)
+    if (touches[c] != 0.0) sums.add({-delta[c], -delta[candidates + c]}, {force[c], force[candidates + c]});
+  return sums;
+}
+
+void DiscBox::read_records() const {
   contacts_.clear();
+  listed_ = true;
   const DiscCombination& laws = definition_.combination;
   const double slope = laws.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
   const std::size_t candidates = list_.second.size();

@@ -60,7 +60,8 @@ class DiscBox final : public GrainBox<2> {
     return Cosserat<2>::Rotation(multiplier_);
   }
   [[nodiscard]] const Box<2>& box() const override { return motion_.box(); }
-  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] std::span<const Contact> contacts() const override;
+  [[nodiscard]] ContactSums<2> contact_sums() const override;
   [[nodiscard]] Imbalance imbalance() const override;
   [[nodiscard]] std::span<const double> rotations() const override;
   [[nodiscard]] std::span<const double> places() const override;
@@ -76,7 +77,7 @@ class DiscBox final : public GrainBox<2> {
   /// @param records as of a DiscPass
   void run_kernel(bool advance, double* records);
   /// Contacts from the records of the last pass.
-  void read_records();
+  void read_records() const;
   /// Adds lambda W to the torques of the contacts. @param damped the torques of the damping count too
   void control_rotation(bool damped);
   /// The pass over the discs, with the numbers of the step that ends.
@@ -107,7 +108,8 @@ class DiscBox final : public GrainBox<2> {
   std::vector<double> weights_;
   double multiplier_ = 0.0;
   LineVector<double> records_;
-  std::vector<Contact> contacts_;
+  mutable std::vector<Contact> contacts_;
+  mutable bool listed_ = true;  ///< the contacts are those of the records
   mutable std::vector<double> rotations_, places_;
 };
 

@@ -70,6 +70,8 @@ void SphereBox::find_candidates() {
     listed_places_[k] = ConstPlace(&grains_[k * kGrainStride]);
   images_.resize(list_.images.size() * kImageStride);
   records_.resize(static_cast<std::size_t>(list_.count) * kSphereRecords);
+  contacts_.clear();
+  listed_ = true;
   place_images();
 }
 
@@ -133,14 +135,35 @@ void SphereBox::compute_forces(bool advance, bool record) {
   }
   pass_(pass);
   if (further_forces) further_forces(grains_.data(), forces_.data());
-  if (record) read_records();
+  if (record) listed_ = false;
 }
 
-void SphereBox::read_records() {
-  contacts_.clear();
+std::span<const Contact> SphereBox::contacts() const {
+  if (!listed_) read_records();
+  return contacts_;
+}
+
+const double* SphereBox::record_of(int candidate) const {
+  return &records_[static_cast<std::size_t>(candidate / kBlock) * (kBlock * kSphereRecords) +
+                   candidate % kBlock];
+}
+
+ContactSums<3> SphereBox::contact_sums() const {
+  if (listed_) return sums_of<3>(contacts_);
+  ContactSums<3> sums;
   for (int c = 0; c < list_.count; ++c) {
-    const double* const record =
-        &records_[static_cast<std::size_t>(c / kBlock) * (kBlock * kSphereRecords) + c % kBlock];
+    const auto at = [record = record_of(c)](int which) { return record[which * kBlock]; };
+    if (at(kIsTouching) == 0.0) continue;
+    sums.add({-at(kDelta), -at(kDelta + 1), -at(kDelta + 2)}, {at(kForce), at(kForce + 1), at(kForce + 2)});
+  }
+  return sums;
+}
+
+void SphereBox::read_records() const {
+  contacts_.clear();
+  listed_ = true;
+  for (int c = 0; c < list_.count; ++c) {
+    const double* const record = record_of(c);
     if (record[kIsTouching * kBlock] != 0.0) contacts_.push_back(contact_of(c, record));
   }
 }

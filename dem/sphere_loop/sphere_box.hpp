@@ -51,7 +51,8 @@ class SphereBox final : public GrainBox<3> {
     return motion_.box().orientation * multiplier_;
   }
   [[nodiscard]] const Box<3>& box() const override { return motion_.box(); }
-  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] std::span<const Contact> contacts() const override;
+  [[nodiscard]] ContactSums<3> contact_sums() const override;
   [[nodiscard]] Imbalance imbalance() const override { return imbalance_; }
   [[nodiscard]] std::span<const double> rotations() const override;
   [[nodiscard]] std::span<const double> places() const override;
@@ -67,7 +68,8 @@ class SphereBox final : public GrainBox<3> {
   void place_images();
   void compute_forces(bool advance, bool record);
   /// Contacts from the records of the last pass.
-  void read_records();
+  void read_records() const;
+  [[nodiscard]] const double* record_of(int candidate) const;
   [[nodiscard]] Contact contact_of(int candidate, const double* record) const;
   [[nodiscard]] SphereMotion motion_of_step();
   /// The box goes on by a step, and the spheres do its first half. One pass over them does that and the second half of
@@ -98,7 +100,8 @@ class SphereBox final : public GrainBox<3> {
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
   Eigen::Vector3d multiplier_ = Eigen::Vector3d::Zero();  // in the frame of the box, Pa
-  std::vector<Contact> contacts_;
+  mutable std::vector<Contact> contacts_;
+  mutable bool listed_ = true;  // the contacts are those of the records
   Imbalance imbalance_;
   mutable std::vector<double> rotations_, places_;
 };
