@@ -14,20 +14,6 @@ namespace {
 const std::string kProgram = POLARGRAIN;
 const std::string kSource = POLARGRAIN_SOURCE_DIRECTORY;
 
-const std::string kCase = R"(title: A wall pushed 2 mm into ground of grains
-mesh: {file: wall.msh, element: Q8R}
-materials:
-  sand: {model: adaptive, script: cell.in, packing: grains.h5, lc: 1.4 mm, adaptive: {tolerance: 1 %}}
-regions: {ground: sand}
-boundary:
-  - {on: base, fix: [u1, u2]}
-  - {on: [far, below_wall], fix: [u1]}
-  - {on: wall, fix: [u2], move: {u1: 2 mm}}
-  - {on: toe, fix: [u2], move: {u1: 2 mm}}
-  - {on: surface, pressure: 100 kPa}
-steps: {count: 8, cut: 6, iterations: 20, tolerance: 1e-3, jumps: 0}
-)";
-
 double sum(const std::vector<double>& values) {
   double all = 0.0;
   for (const double value : values) all += value;
@@ -37,7 +23,7 @@ double sum(const std::vector<double>& values) {
 TEST(Struggling, AWallIsToldWhatItNeedsAndGetsThroughWithIt) {
   const Scratch scratch("struggling");
   const std::filesystem::path& at = scratch.path();
-  write(at / "case.yaml", kCase);
+  write(at / "case.yaml", content(kSource + "/tests/data/fem/wall.yaml"));
   write(at / "cell.in", content(kSource + "/liggghts_inputs/cells/hooke_radii.in"));
   std::filesystem::copy_file(kSource + "/cases/footing_cells/packing100.h5", at / "grains.h5");
   std::filesystem::copy_file(kSource + "/tests/data/fem/wall.msh", at / "wall.msh");
