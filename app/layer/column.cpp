@@ -25,9 +25,14 @@ constexpr double kBeforePeak = 1.0;
 /// Of the plate before the peak, in diameters; in explicit steps.
 constexpr double kPlateBeforePeak = 1.5;
 
-/// Rows of nodes: those between two elements, and those in the middle of elements.
+/// Rows of nodes: those between two elements, and those in the middle of elements. In explicit steps elements have one point and half
+/// the size: the points of larger ones part from each other, which nothing spreads (docs/theory/spread.md).
 int rows_of(const ColumnSpecification& column) {
   return 2 * column.elements + 1;
+}
+
+int elements_of(const ColumnSpecification& column) {
+  return column.explicit_steps ? 2 * column.elements : column.elements;
 }
 
 /// Whether nodes have micro-rotations.
@@ -36,7 +41,7 @@ bool turns(const ColumnSpecification& column) {
 }
 
 double width_of(const ColumnSpecification& column) {
-  return column.height / column.elements;
+  return column.height / elements_of(column);
 }
 
 /// In explicit steps, where the plate goes the height by time 10.
@@ -77,10 +82,10 @@ std::string column_case(const ColumnSpecification& column) {
       "title: A layer of cells with given lengths, made by polargrain layer\ndeformation: large\n";
   if (!turns(column))
     text += fmt::format("continuum: {{kind: cauchy, spread: {:.17g}, hold: [bottom, top]}}\n", column.spread);
-  text += "mesh:\n";
+  text += column.explicit_steps ? "mesh:\n  element: Q4R\n" : "mesh:\n";
   text +=
       fmt::format("  rectangle:\n    size: [{:.17g}, {:.17g}]\n    elements: [1, {}]\n    levels: {{{}}}\n",
-                  width_of(column), column.height, column.elements, levels);
+                  width_of(column), column.height, elements_of(column), levels);
   text += fmt::format("materials:\n  sand: {{model: cell, script: {}, packing: {}", column.script.string(),
                       column.packing.string());
   if (turns(column)) {

@@ -191,8 +191,11 @@ void SlipDrivenMaterial<dim>::answer(std::size_t point, const State& start, cons
   answer.drive_by_strain = kShear * overstress_by_strain;
   answer.drive_by_slip = -kShear * kShear * stiffness;
   answer.stress_by_slip = -2.0 * kShear * stiffness * direction;
-  response.stress += 2.0 * end.overstress * direction;
-  if (is_explicit_) response.stress += 2.0 * kDampingOfSteps * elastic * direction;
+  const Vector overstress = 2.0 * end.overstress * direction;
+  if (is_explicit_)
+    response.stress += kDampingOfSteps * (response.stress - start.stress +
+                                          2.0 * (end.overstress - start.overstress) * direction);
+  response.stress += overstress;
   response.tangent += 2.0 * direction * overstress_by_strain.transpose();
 }
 

@@ -78,6 +78,10 @@ inline std::string replaced(std::string text, const std::string& good, const std
   return text;
 }
 
+/// kGrains with slips that are spread.
+inline const std::string kSpreadGrains = replaced(
+    replaced(kGrains, "continuum: cosserat", "continuum: {kind: cauchy, spread: 50 mm}"), ", lc: 8 mm", "");
+
 /// The engine's findings on packing100 under hooke_radii.in, rounded: no engine is started here.
 inline app::PackingAtRest packing_at_rest_of_tests() {
   app::PackingAtRest packing;

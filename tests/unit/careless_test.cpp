@@ -288,7 +288,10 @@ INSTANTIATE_TEST_SUITE_P(
         Careless{"FrictionOfSixtyDegrees", kGround, "friction_angle: 30 deg", "friction_angle: 60 deg",
                  "a friction angle of 60 deg", Rank::doubtful},
         Careless{"ErrorOfAThird", kGrains, "model: cell,", "model: adaptive, adaptive: {tolerance: 0.3},",
-                 "tolerance: 0.3 of the pressure", Rank::doubtful}),
+                 "tolerance: 0.3 of the pressure", Rank::doubtful},
+        Careless{"SpreadSlipsOfFourPoints", kSpreadGrains, "{count: 20, tolerance: 1e-2}",
+                 "{count: 20, method: explicit}", "explicit steps with elements Q8R of 4 points",
+                 Rank::doubtful}),
     [](const auto& info) { return info.param.name; });
 
 // Written before the remarks on such places were, and run once they stood.

@@ -272,6 +272,10 @@ TEST(LayerColumn, OfStiffGrainsDrivesItsPlateAllTheWayInExplicitSteps) {
   const std::string text = column_case(column);
   EXPECT_EQ(text.find("measure"), std::string::npos);
   EXPECT_NE(text.find("method: explicit"), std::string::npos);
+  // As many rows of nodes as those of larger elements have, whose points part from each other.
+  EXPECT_NE(text.find("element: Q4R"), std::string::npos);
+  EXPECT_NE(text.find("size: [0.01, 0.2"), std::string::npos) << text;
+  EXPECT_NE(text.find("elements: [1, 20]"), std::string::npos) << text;
   // The plate goes the height by time 10, and 5.5 diameters of 10 mm are 2.75 of that; twelve rows a diameter.
   EXPECT_NE(text.find("{until: 2.75, count: 66}"), std::string::npos) << text;
   column.height = 0.04;  // 5.5 diameters are more than the height, which the plate goes by time 10

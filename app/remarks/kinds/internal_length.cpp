@@ -7,6 +7,7 @@
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/kinds.hpp"
 #include "app/remarks/lengths.hpp"
+#include "fem/mesh/gmsh.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -94,6 +95,28 @@ void controlled_rotations(const Scene& scene, const SceneRegion& region, Remarks
        "smaller elements where bands are expected, or 'rotations: free' with an lc that the mesh resolves"});
 }
 
+/// Columns of discs and spheres in explicit steps flew apart with elements Q8R, and did not with Q4R (docs/theory/spread.md): within an
+/// element nothing spreads.
+void points_that_part(const Scene& scene, Remarks& remarks) {
+  if (!scene.the_case().is_explicit()) return;
+  scene.with_problem([&]<int dim>(const fem::Problem<dim>& problem) {
+    for (const SceneRegion& region : scene.regions()) {
+      if (region.cell == nullptr || region.elements.empty()) continue;
+      const auto first = static_cast<std::size_t>(region.elements.front());
+      const fem::ElementType<dim>& type = *problem.mesh.elements[first].type;
+      if (type.quadrature.size() == 1) continue;
+      remarks.push_back(
+          {Rank::doubtful, 1.0,
+           scene.place({"continuum", "spread"})
+               .fault(fmt::format(
+                   "continuum: region '{}' spreads its slips in explicit steps with elements {} of {} points: slips "
+                   "of an element are alike, and its boxes can part from each other until nodes fly",
+                   region.name, type.name, type.quadrature.size())),
+           fmt::format("'element: {}' in the mesh", fem::kOnePoint<dim>)});
+    }
+  });
+}
+
 /// Slips that are spread: bands have the width that is given only where elements and body leave room for it.
 void spread_of_slips(const Scene& scene, Remarks& remarks) {
   const double spread = scene.the_case().spread;
@@ -108,6 +131,7 @@ void spread_of_slips(const Scene& scene, Remarks& remarks) {
              "at most {:g}): slips are alike all over it, and no band has room",
              1e3 * spread, spread / body, 1e3 * body, kMostSpreadOverBody)),
          "give the width that bands of the sand have, some ten mean diameters of its grains; check its unit"});
+  points_that_part(scene, remarks);
   for (const SceneRegion& region : scene.regions()) {
     const double element = usual_element(scene, region);
     const double ratio = element / spread;
