@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Explicit steps on packings drawn with fixed seeds: how far they go, how near to Newton's method, and what they say of their error.
 
-    python3 explicit_packings.py -o RESULTS [--packings 10] [--parts far,careful,discs] [--program build/release/app/polargrain]
+    python3 explicit_packings.py -o RESULTS [--packings 10] [--parts far,careful,discs,biaxial] [--program build/release/app/polargrain]
 
 far      boxes of 200 spheres between rough plates (explicit_plates.yaml) to 8 % at two paces: how many get there, processor time, and
          what the pace adds to the stress
 careful  the same to 0.3 % at a slow pace, against Newton's method with slow grains: difference of the stress ratio
 discs    boxes of 100 discs to 4 % at three paces, against Newton's method in 80 steps: error before 1.5 % and behind, the estimate of
          the run for it, and how often the error is within the estimate
+biaxial  cases/biaxial (200 boxes of 400 discs) as given and at three paces, both against Newton's method in four times as many steps
+         of slower grains: error and user time
 
 What is there already is not run again. Tables are Markdown, with means over the packings and their 95 % intervals. Processor time is user
 time of all processes of a run.
@@ -25,7 +27,8 @@ from intervals import interval, table
 
 HERE = pathlib.Path(__file__).resolve().parent
 GRAINS = {"spheres": "grains: 200\ndimension: 3\nscript: cells/spheres_hooke_radii.in",
-          "discs": "grains: 100\nthickness: 100 mm\nscript: cells/hooke_radii.in"}
+          "discs": "grains: 100\nthickness: 100 mm\nscript: cells/hooke_radii.in",
+          "discs400": "grains: 400\nthickness: 100 mm\nscript: cells/hooke_radii.in"}
 SPECIFICATION = ("title: dense {kind}\n{grains}\nsizes: {{law: uniform, radius: [3 mm, 7 mm]}}\ndensity: 2650\npressure: 100 kPa\n"
                  "friction: 0\nseed: {seed}\n")
 HEIGHT = 0.8  # m
@@ -44,14 +47,14 @@ class Study:
             subprocess.run([self.program, "pack", f"{packing.stem}.yaml", "-o", packing.name, "--quiet"], cwd=self.place, check=True)
         return packing.name
 
-    def run(self, name, kind, seed, strain, settings):
+    def run(self, name, kind, seed, strain, settings, case="explicit_plates.yaml"):
         """@returns rows of history.csv as numbers, the summary, and the user time in s"""
         out = self.place / f"{name}-{seed}"
         if not (out / "user_seconds").exists():
             script = "spheres_hooke_radii" if kind == "spheres" else "hooke_radii"
             settings = [f"materials.sand.packing={self.packing(kind, seed)}", f"materials.sand.script=cells/{script}.in",
                         f"boundary.1.move.u2={-1e3 * strain * HEIGHT:.10g} mm"] + settings
-            command = [self.program, "run", "explicit_plates.yaml", "-o", out.name, "-w", "1", "--quiet"]
+            command = [self.program, "run", case, "-o", out.name, "-w", "1", "--quiet"]
             for setting in settings:
                 command += ["--set", setting]
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -140,19 +143,42 @@ def discs(study):
     table("32 boxes of 100 discs", groups, list(next(iter(groups.values()))[0]))
 
 
+def biaxial(study):
+    """Errors of explicit steps and of Newton's method as the case has it, both in % of the peak of slow grains in short steps."""
+    groups = {}
+    for seed in study.seeds:
+        def made(name, settings, at_seed=seed):
+            return study.run(f"biaxial-{name}", "discs400", at_seed, 0.023, settings, case="biaxial.yaml")
+
+        reference, _, _ = made("slow", ["steps.count=92", "materials.sand.inertial_number=1.5e-4", "materials.sand.unbalanced_force_ratio=2e-3"])
+        peak = max(row["stress_ratio"] for row in reference)
+        runs = {"Newton's method, 23 steps": made("newton", [])}
+        for pace in ["6e-4", "3e-4", "1.5e-4"]:
+            runs[f"explicit, pace {pace}"] = made(pace, ["steps.method=explicit", f"steps.pace={pace}"])
+        newton_seconds = next(iter(runs.values()))[2]
+        for name, (rows, _, seconds) in runs.items():
+            errors = [(row["axial_strain"], 100 * (row["stress_ratio"] - at(reference, row["axial_strain"])) / peak) for row in rows[1:]]
+            groups.setdefault(name, []).append({
+                "rms before 1.5 %, % of peak": rms([error for strain, error in errors if strain <= PEAK]),
+                "behind": rms([error for strain, error in errors if strain > PEAK]),
+                "user time over Newton's": seconds / newton_seconds})
+    table("cases/biaxial", groups, list(next(iter(groups.values()))[0]))
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", type=pathlib.Path, required=True)
     arguments.add_argument("--packings", type=int, default=10)
-    arguments.add_argument("--parts", default="far,careful,discs")
+    arguments.add_argument("--parts", default="far,careful,discs,biaxial")
     arguments.add_argument("--program", type=pathlib.Path, default=HERE / "../../build/release/app/polargrain")
     options = arguments.parse_args()
-    parts = {"far": far, "careful": careful, "discs": discs}
+    parts = {"far": far, "careful": careful, "discs": discs, "biaxial": biaxial}
     if unknown := sorted(set(options.parts.split(",")) - set(parts)):
         arguments.error(f"--parts: there is no {', '.join(unknown)}; there are {', '.join(parts)}")
     place = options.output.resolve()
     place.mkdir(parents=True, exist_ok=True)
     shutil.copy(HERE / "explicit_plates.yaml", place)
+    shutil.copy(HERE / "../biaxial/case.yaml", place / "biaxial.yaml")
     study = Study(str(options.program.resolve()), place, range(1, options.packings + 1))
     for part in options.parts.split(","):
         parts[part](study)
