@@ -56,7 +56,8 @@ CELL = "common/cell.hpp"
 FIGURES = [
     ("README.md", "at 2.3 % of strain", code(DEMO, r"u2: -(\S+) mm"), 18.4, 18.4),  # of 800 mm
     ("README.md", "two of its 200 points", code(DEMO, r"elements: \[5, (\d+)\]"), 10, 10),  # with four points each
-    ("README.md", "200 boxes of 400 grains to 2.3 % strain, 2 cores", code("cases/packings/dense400.yaml", r"grains: (\d+)"), 400, 400),
+    ("README.md", "a band in 128 boxes of 500 spheres, 2 cores", code("cases/toyoura/case.yaml", r"its band, 128 boxes of (\d+) spheres"), 500, 500),
+    ("README.md", "a band in 128 boxes", code("cases/toyoura/case.yaml", r"elements: \[8, (\d+)\]"), 16, 16),  # 8 x 16
     ("README.md", "50 times fewer grain steps, 0.60 %", code("docs/studies/adaptive_scenes.md", r"load curve over its range \|  \| ([\d.]+) %"), 0.6, 0.6),
     ("README.md", "a footing on 10,080 points", code("docs/studies/adaptive_scenes.md", r"times fewer \| 10,553,767 \| 211,591, (\d+) "), 50, 50),
     ("README.md", "10 cm x 20 cm by 2 %", code("README.md", r"move: \{u2: -(\d+) mm"), 4, 4),
@@ -86,7 +87,7 @@ FIGURES = [
 # Words whose numbers are no figures of ours: versions, counts of a list, values to choose and their reasons.
 CHOSEN = {
     "README.md": ["On Debian 12", "GPL-2.0-or-later", "0.3 % in 3 increments, 0.6 % in 10", "| the same run with 1 and with 2 workers |", "| below 2e-14 |",  # tests/pages.py, made
-                  "| 10 to 40 s |"],  # docs/performance.md: 16 s of processor time on two fast cores
+                  "| 25 to 60 s |"],  # docs/performance.md: 46 s of processor time on two fast cores
     "docs/settings.md": ["100 grains", "400 grains", "Beyond 1e-2", "Take 5e-3 with", "1e-3 with `cell`, 1e-8 without", "about 1e-3 per step",
                          "0.6 to 0.9 `lc`"],  # sqrt(2/3) M of packings with M of 0.75 to 1.1 (docs/theory/grains.md, C.6)
     "docs/howto/calibrate.md": ["95 % intervals"],
