@@ -57,7 +57,6 @@ FIGURES = [
     ("README.md", "at 2.3 % of strain", code(DEMO, r"u2: -(\S+) mm"), 18.4, 18.4),  # of 800 mm
     ("README.md", "two of its 200 points", code(DEMO, r"elements: \[5, (\d+)\]"), 10, 10),  # with four points each
     ("README.md", "a band in 128 boxes of 500 spheres, 2 cores", code("cases/toyoura/case.yaml", r"its band, 128 boxes of (\d+) spheres"), 500, 500),
-    ("README.md", "a band in 128 boxes", code("cases/toyoura/case.yaml", r"elements: \[8, (\d+)\]"), 16, 16),  # 8 x 16
     ("README.md", "50 times fewer grain steps, 0.60 %", code("docs/studies/adaptive_scenes.md", r"load curve over its range \|  \| ([\d.]+) %"), 0.6, 0.6),
     ("README.md", "a footing on 10,080 points", code("docs/studies/adaptive_scenes.md", r"times fewer \| 10,553,767 \| 211,591, (\d+) "), 50, 50),
     ("README.md", "10 cm x 20 cm by 2 %", code("README.md", r"move: \{u2: -(\d+) mm"), 4, 4),
