@@ -151,6 +151,25 @@ TEST_F(HardCells, AColumnOfSpreadSlipsStaysCalmFarBehindItsPeak) {
   EXPECT_LE(std::ranges::max(column("nodes_unbalanced")), 0.3);
 }
 
+/// The demo: its strength at peak and behind, and the band that `band` finds, between the angles of Roscoe and Mohr-Coulomb (54 and
+/// 69 degrees) or below by the scatter of five packings (docs/studies/toyoura.md).
+TEST_F(HardCells, TheDemoEndsInABand) {
+  const Outcome outcome = run_in(
+      kSource, POLARGRAIN " run cases/toyoura/case.yaml --quiet -o " + (scratch_.path() / "out").string());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  const std::vector<double> ratios = column("stress_ratio");
+  EXPECT_GT(std::ranges::max(ratios), 6.0);
+  EXPECT_LT(ratios.back(), 0.85 * std::ranges::max(ratios));
+  const Outcome band = polargrain("band out");
+  EXPECT_EQ(band.status, 0) << band.errors;
+  const std::string file = content(scratch_.path() / "out/band.json");
+  EXPECT_NE(file.find("\"found\": true"), std::string::npos) << file;
+  const std::string key = "\"inclination_degrees\": ";
+  const double inclination = std::stod(file.substr(file.find(key) + key.size()));
+  EXPECT_GT(inclination, 45.0);
+  EXPECT_LT(inclination, 69.0);
+}
+
 /// Micro-rotations that nothing resists are held there, so the run goes on; it must not do so without a word.
 TEST_F(HardCells, ExtensionPartsTheGrainsAndSaysSo) {
   write_case(kLowStress, "count: 20, tolerance: 1e-3",

@@ -49,6 +49,19 @@ void put(const std::filesystem::path& at, const std::string& text) {
   std::filesystem::copy_file(kSource + "/cases/footing_cells/packing100.h5", at / "grains.h5");
 }
 
+/// Its boxes take 46 s of one core (docs/performance.md); the estimate is good to a factor of three (docs/remarks.md).
+TEST(Remarks, TheDemoHasNoneAndItsTimeIsTold) {
+  const Outcome told = run_in(kSource, kProgram + " check cases/toyoura/case.yaml --strict");
+  EXPECT_EQ(told.status, 0) << told.out << told.errors;
+  const std::string words = "evaluations of cells at most, ";
+  const std::size_t place = told.out.find(words);
+  ASSERT_NE(place, std::string::npos) << told.out;
+  const double seconds = std::stod(told.out.substr(place + words.size()));
+  EXPECT_NE(told.out.find(" s of one core", place), std::string::npos) << told.out;
+  EXPECT_GT(seconds, 46.0 / 3.0);
+  EXPECT_LT(seconds, 46.0 * 3.0);
+}
+
 TEST(Remarks, CheckTellsThemAndStrictRefuses) {
   const Scratch scratch("remarks_check");
   put(scratch.path(), kGrains);

@@ -42,7 +42,8 @@ struct Course {
   std::vector<ContentName> states;
   bool operator==(const Course& other) const {
     return numbers.size() == other.numbers.size() && states == other.states &&
-           std::memcmp(numbers.data(), other.numbers.data(), numbers.size() * sizeof(double)) == 0;
+           (numbers.empty() ||
+            std::memcmp(numbers.data(), other.numbers.data(), numbers.size() * sizeof(double)) == 0);
   }
 };
 
