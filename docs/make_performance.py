@@ -126,13 +126,13 @@ Nanoseconds a grain and step, over a bare loop of the same physics:""", "step_be
     ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing. "+tangent" is the
 additional time of the condensed tangent. "off" is the deviator against a slow run.""", "sphere_bench.txt", [],
      ["contacts", "hooke/radii, history", "and torsion"]),
-    ("", """**Why not faster** (`perf`): a tangent is two thirds of an evaluation at inertial number 1e-3. Elimination in single precision is 58 % of it, at
-175e9 operations a second, three quarters of what this core can. Of a disc's step lists and motion are 30 %.
+    ("", """**Why not faster** (`perf record` of `sphere_bench`, `cell_bench`): a tangent is two thirds of an evaluation at inertial number 1e-3. Elimination in
+single precision is 58 % of it. Of a disc's step lists and motion are 30 %.
 
 A sphere and step. The divider takes a quarter of the AVX-512 pass: eight lanes take twice as long as four.""", "sphere_step_bench.txt", [], ["hooke", "  ", "clean", "AVX", "lammps"]),
     ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm. Both loops make the same void ratio: ten packings of 300 spheres differ by
 -0.007 +- 0.013 with friction 0.5, 0.004 +- 0.006 without.""", "pack_bench.csv",
-     ["packing", "grains", "seconds", "DEM steps"], ["discs, void", "discs"]),
+     ["packing", "grains", "seconds", "DEM steps"], ["discs"]),
     ("A coupled run", """`cases/biaxial` (200 cells, 23 steps, 19,244 evaluations) takes 16 s of processor time on that EPYC, 36 s with `condensed`, `./bootstrap demo` 46 s. `spheres_512` takes 17 minutes with `informed`, 16 with `cell` in explicit steps.
 
 Fewer tangents: `tangent: secant` ([when](howto/method.md#which-tangent)) beside `condensed`, the same packings with one worker; means with 95 % intervals.""", "tangents.csv", [], []),

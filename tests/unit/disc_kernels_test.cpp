@@ -9,6 +9,7 @@
 
 #include "common/packing.hpp"
 #include "dem/discs/disc_box.hpp"
+#include "tests/support/sums_of_contacts.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -154,21 +155,12 @@ TEST_P(DiscKernelsOf, GiveTheBitsOfThePlainTwin) {
   }
 }
 
-// Resident boxes answer with sums, others from the list: both to the bit, whichever is asked first.
 TEST(DiscBoxes, SumContactsWithoutAList) {
   const Packing made = disc_packing();
   const DiscBox::Definition discs = definition_of(made, all_laws().front(), 1);
   DiscBox box(discs);
   box.restore(at_rest(made, discs));
-  for (const int steps : {100, 120}) {
-    run(box, steps);
-    const ContactSums<2> sums = box.contact_sums();
-    const ContactSums<2> listed = sums_of<2>(box.contacts());
-    EXPECT_EQ(sums.virial, listed.virial);
-    EXPECT_EQ(sums.forces, listed.forces);
-    EXPECT_EQ(sums.contacts, static_cast<double>(box.contacts().size()));
-    EXPECT_EQ(box.contact_sums().virial, listed.virial);
-  }
+  testing::expect_sums_without_a_list<2>(box, [](DiscBox& tested, int steps) { run(tested, steps); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, DiscKernelsOf, ::testing::ValuesIn(all_laws()),

@@ -14,6 +14,7 @@
 #include "common/error.hpp"
 #include "common/packing.hpp"
 #include "dem/sphere_loop/sphere_box.hpp"
+#include "tests/support/sums_of_contacts.hpp"
 
 namespace polargrain::dem {
 namespace {
@@ -246,21 +247,12 @@ TEST(SphereBoxes, ForcesOfContactsBalance) {
   EXPECT_NEAR(box.imbalance().force, unbalanced, 1e-10 * mean);
 }
 
-// Resident boxes answer with sums, others from the list: both to the bit, whichever is asked first.
 TEST(SphereBoxes, SumContactsWithoutAList) {
   const Packing made = packing();
   const Spheres spheres = spheres_of(made, kLaws[4]);
   SphereBox box(spheres, sphere_kernels(best_instruction_set()));
   box.restore(at_rest(made, spheres));
-  for (const int steps : {100, 120}) {
-    run(box, steps);
-    const ContactSums<3> sums = box.contact_sums();
-    const ContactSums<3> listed = sums_of<3>(box.contacts());
-    EXPECT_EQ(sums.virial, listed.virial);
-    EXPECT_EQ(sums.forces, listed.forces);
-    EXPECT_EQ(sums.contacts, static_cast<double>(box.contacts().size()));
-    EXPECT_EQ(box.contact_sums().virial, listed.virial);
-  }
+  testing::expect_sums_without_a_list<3>(box, [](SphereBox& tested, int steps) { run(tested, steps); });
 }
 
 TEST(SphereBoxes, RefuseStatesThatAreNotTheirs) {
