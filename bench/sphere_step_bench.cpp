@@ -81,7 +81,7 @@ Variant clean(const Packing& packing) {
 
 dem::Spheres spheres_of(const Packing& packing, bool rolling) {
   dem::Spheres spheres;
-  dem::DiscCombination& laws = spheres.combination;
+  dem::LawCombination& laws = spheres.combination;
   laws.tangential = rolling ? dem::TangentialLaw::li_chu : dem::TangentialLaw::history;
   laws.rolling = rolling ? dem::RollingLaw::li_chu : dem::RollingLaw::off;
   laws.settings.torsion = rolling;
@@ -95,6 +95,7 @@ dem::Spheres spheres_of(const Packing& packing, bool rolling) {
   for (const Grain& grain : packing.grains) {
     spheres.radii.push_back(grain.radius);
     spheres.masses.push_back(grain.mass);
+    spheres.inertias.push_back(dem::sphere_inertia(grain.mass, grain.radius));
     spheres.types.push_back(0);
   }
   return spheres;

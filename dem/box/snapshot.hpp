@@ -25,7 +25,7 @@ struct Snapshot {
   };
 
   Box<dim> box;
-  int code = 0;     ///< DiscCombination::code: under which laws the springs mean something
+  int code = 0;     ///< LawCombination::code: under which laws the springs mean something
   int springs = 0;  ///< values a contact
   std::vector<GrainMotion<dim>> grains;
   std::vector<Springs> contacts;  ///< by ascending `first`

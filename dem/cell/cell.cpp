@@ -263,7 +263,7 @@ template <int dim>
 struct Cell<dim>::ResidentKind {
   using Grains = typename Loop::Grains;
   Cell& cell;
-  DiscCombination combination;
+  LawCombination combination;
 
   [[nodiscard]] std::unique_ptr<Grains> make() const {
     auto box = Loop::make(cell.driver_, combination, cell.control_.loop == CellLoop::plain);
@@ -330,7 +330,7 @@ struct Cell<dim>::ResidentKind {
 
 template <int dim>
 std::unique_ptr<ResidentBoxes> Cell<dim>::residents() {
-  const DiscSelection selection = Loop::selection(driver_.lammps());
+  const LawSelection selection = Loop::selection(driver_.lammps());
   if (!selection.combination) throw RunError(no_residents(selection));
   return std::make_unique<ResidentBoxesOf<ResidentKind>>(ResidentKind{*this, *selection.combination});
 }

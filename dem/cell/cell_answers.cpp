@@ -69,7 +69,7 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
   response.message = std::move(reason);
 }
 
-std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSelection& selection,
+std::string stepping_note(CellLoop asked, const std::string& loop, const LawSelection& selection,
                           std::string_view instructions) {
   std::string note(kSteppingNote);
   if (asked == CellLoop::engine) return note + "LIGGGHTS's own loop, as `loop: engine` asks";
@@ -83,12 +83,12 @@ std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSel
 }
 
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
-                            const DiscSelection& selection, std::string_view instructions) {
+                            const LawSelection& selection, std::string_view instructions) {
   const std::string note = stepping_note(control.loop, loop, selection, instructions);
   return remark.empty() ? note : remark + "\n" + note;
 }
 
-std::string no_residents(const DiscSelection& selection) {
+std::string no_residents(const LawSelection& selection) {
   return fmt::format(
       "explicit steps need the program's own loop over the grains, and it does not take this script: {}; use the models "
       "and settings it knows (docs/contact_models.md), or `method: newton`",

@@ -9,7 +9,7 @@
 #include "common/cell.hpp"
 #include "dem/cell/quasi_static.hpp"
 #include "dem/cell/time_step.hpp"
-#include "dem/discs/combination.hpp"
+#include "dem/laws/combination.hpp"
 
 namespace polargrain::dem {
 
@@ -46,15 +46,15 @@ void judge(CellResponse& response, const CellDiagnostics& diagnostics, const Qua
 /// Which loop steps the grains of a scene, in words (kSteppingNote).
 /// @param loop that takes the scenes it knows: "the loop over discs" @param selection its verdict on this scene
 /// @param instructions that it is compiled for, or nothing
-std::string stepping_note(CellLoop asked, const std::string& loop, const DiscSelection& selection,
+std::string stepping_note(CellLoop asked, const std::string& loop, const LawSelection& selection,
                           std::string_view instructions = {});
 
 /// The remarks of a cell on its packing at rest, a line each: `remark`, if there is one, and its stepping_note.
 std::string remarks_at_rest(const std::string& remark, const CellControl& control, const std::string& loop,
-                            const DiscSelection& selection, std::string_view instructions = {});
+                            const LawSelection& selection, std::string_view instructions = {});
 
 /// Why a scene cannot be stepped by resident boxes, and what to do.
-std::string no_residents(const DiscSelection& selection);
+std::string no_residents(const LawSelection& selection);
 
 /// Diagnostics from the contacts of a cell, but for fabric and rotations. @param radii of the grains, m
 CellDiagnostics diagnostics_of(const Equilibrium& rest, std::span<const Contact> contacts,

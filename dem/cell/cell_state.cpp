@@ -134,17 +134,17 @@ StatePointer save_state(LAMMPS_NS::LAMMPS& lammps, const Box<dim>& box, std::spa
 }
 
 namespace {
-void put_grains(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& models, const Snapshot<2>& discs) {
+void put_grains(LAMMPS_NS::LAMMPS& lammps, const LawCombination& models, const Snapshot<2>& discs) {
   put_discs(lammps, models, discs);
 }
-void put_grains(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& models, const Snapshot<3>& spheres) {
+void put_grains(LAMMPS_NS::LAMMPS& lammps, const LawCombination& models, const Snapshot<3>& spheres) {
   put_spheres(lammps, models, spheres);
 }
 
 /// A state of the loop over discs or spheres, taken up by the engine's own.
 template <int dim>
 RestoredState<dim> restore_snapshot(LAMMPS_NS::LAMMPS& lammps, const State& state) {
-  const DiscSelection models = disc_models(lammps);
+  const LawSelection models = known_models(lammps);
   if (!models.combination) throw RunError("this state belongs to a cell of another input script");
   const Snapshot<dim> snapshot = decode_snapshot<dim>(state);
   put_grains(lammps, *models.combination, snapshot);

@@ -22,7 +22,7 @@ template <int dim>
 std::unique_ptr<GrainBox<dim>> choose_box(Driver<dim>& driver, CellLoop loop) {
   using Loop = FastLoop<dim>;
   LAMMPS_NS::LAMMPS& lammps = driver.lammps();
-  const DiscSelection selection = Loop::selection(lammps);
+  const LawSelection selection = Loop::selection(lammps);
   if (loop == CellLoop::engine || !selection.combination) return std::make_unique<EngineBox<dim>>(driver);
   auto box = Loop::make(driver, *selection.combination, loop == CellLoop::plain);
   const FixCellStrain<dim>& strain = driver.strain();

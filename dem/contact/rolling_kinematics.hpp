@@ -12,6 +12,7 @@
 
 #include "dem/contact/closing_factor.hpp"
 #include "dem/contact/points_up.hpp"
+#include "dem/contact/standing_at_limit.hpp"
 
 namespace polargrain::dem {
 
@@ -92,6 +93,12 @@ inline bool limit_length(double* vector, double limit) {
   const double factor = limit / std::sqrt(square);
   for (int axis = 0; axis < 3; ++axis) vector[axis] *= factor;
   return true;
+}
+
+/// Whether the force of a spring stands at its limit.
+inline bool stands_at(const double* force, double limit) {
+  const double least = kStandingAtLimit * limit;
+  return dot(force, force) > least * least;
 }
 
 }  // namespace polargrain::dem

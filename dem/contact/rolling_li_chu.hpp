@@ -109,7 +109,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
         stored[axis] = at_limit ? (moment[axis] + coupling[axis]) / stiffness : bending[axis];
 
     const double torsion_rate = dot(spin.data(), contact.en);
-    if (!at_limit)
+    if (!stands_at(moment, limit))
       for (int axis = 0; axis < 3; ++axis)
         moment[axis] += damping * (spin[axis] - torsion_rate * contact.en[axis]);
     const bool torsion_at_limit =
@@ -171,7 +171,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     const bool at_limit = std::abs(torque) > limit;
     if (at_limit) torque = std::copysign(limit, torque);
     if (advance) stored = at_limit ? torque / stiffness : angle;
-    if (!at_limit) torque += damping * rate;
+    if (std::abs(torque) <= polargrain::dem::kStandingAtLimit * limit) torque += damping * rate;
     for (int axis = 0; axis < 3; ++axis) moment[axis] += torque * contact.en[axis];
     return at_limit;
   }

@@ -116,10 +116,11 @@ class TangentialModel<TANGENTIAL_LI_CHU> : public TangentialModelBase {
       for (int axis = 0; axis < 3; ++axis)
         sliding[axis] = slides && ks > 0.0 ? (elastic[axis] - rolling_part[axis]) / ks : spring[axis];
 
+    const bool stands = stands_at(elastic, cap);
     double total[3];
     for (int axis = 0; axis < 3; ++axis)
       total[axis] =
-          slides ? -elastic[axis] : -elastic[axis] - viscous[axis] - contact.gammat * slip_rate[axis];
+          stands ? -elastic[axis] : -elastic[axis] - viscous[axis] - contact.gammat * slip_rate[axis];
     // A dashpot cannot push past the friction of the surfaces either.
     limit_length(total, cap);
     apply(contact, total, force_i, force_j);
@@ -161,9 +162,10 @@ class TangentialModel<TANGENTIAL_LI_CHU> : public TangentialModelBase {
       }
       for (int axis = 0; axis < 3; ++axis) elastic[axis] = kr * spring[axis];
       const double limit = rolling_friction_[contact.itype][contact.jtype] * std::max(0.0, contact.Fn);
-      rolls_freely = limit_length(elastic, limit);
+      const bool gives_way = limit_length(elastic, limit);
+      rolls_freely = stands_at(elastic, limit);
       if (advance)
-        for (int axis = 0; axis < 3; ++axis) stored[axis] = rolls_freely ? elastic[axis] / kr : spring[axis];
+        for (int axis = 0; axis < 3; ++axis) stored[axis] = gives_way ? elastic[axis] / kr : spring[axis];
     }
     if (!rolling_force_damped_ || rolls_freely) return;
     const double cr = 2.0 * damping_ratio_[contact.itype][contact.jtype] * std::sqrt(kr * contact.meff);

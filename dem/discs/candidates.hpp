@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dem/discs/disc.hpp"
-#include "dem/discs/law_settings.hpp"
 #include "dem/lanes/line_vector.hpp"
+#include "dem/laws/law_settings.hpp"
 
 namespace polargrain::dem {
 

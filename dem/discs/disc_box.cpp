@@ -27,7 +27,7 @@ double least_stretch(const Eigen::Matrix2d& f) {
   return std::sqrt(std::max(0.0, mean - root));
 }
 
-DiscKernels::Pass pass_of(const DiscKernels& kernels, const DiscCombination& laws) {
+DiscKernels::Pass pass_of(const DiscKernels& kernels, const LawCombination& laws) {
   const LawSettings& on = laws.settings;
   const bool bare = !on.damped && !on.limit_force && !on.rolling_force && !on.rolling_damped;
   return kernels.pass[static_cast<int>(laws.normal)][static_cast<int>(laws.tangential)]
@@ -276,7 +276,7 @@ ContactSums<2> DiscBox::contact_sums() const {
 void DiscBox::read_records() const {
   contacts_.clear();
   listed_ = true;
-  const DiscCombination& laws = definition_.combination;
+  const LawCombination& laws = definition_.combination;
   const double slope = laws.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
   const std::size_t candidates = list_.second.size();
   const auto at = [this, candidates](int column, std::size_t c) {

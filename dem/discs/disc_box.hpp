@@ -25,7 +25,7 @@ class DiscBox final : public GrainBox<2> {
  public:
   /// The part of the discs that never changes.
   struct Definition {
-    DiscCombination combination;
+    LawCombination combination;
     std::vector<double> radii;   ///< m
     std::vector<double> masses;  ///< kg
     std::vector<int> types;      ///< from 0
@@ -114,14 +114,14 @@ class DiscBox final : public GrainBox<2> {
 };
 
 /// The discs of an initialised engine as they stand there, with the springs of its contact histories.
-DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
+DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination,
                                     double thickness);
-Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<2>& box,
+Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Box<2>& box,
                           std::span<const double> rotations);
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who
 /// go on in the engine's own loop. The box is the caller's business; lists are not set up.
 /// @throws RunError when the snapshot is not one of these grains and models
-void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<2>& snapshot);
+void put_discs(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Snapshot<2>& snapshot);
 
 }  // namespace polargrain::dem

@@ -3,31 +3,23 @@
 // The pass over the contacts of discs for numbers of some lanes. Included by one file for each instruction set. Each lane is one
 // contact; forces are summed up in the order of the list, as the plain twin does it (plain_contact_loop.cpp), whose bits
 // these are.
+#include "dem/discs/disc_contact.hpp"
 #include "dem/discs/disc_motion_kernels.hpp"
 #include "dem/discs/disc_pass.hpp"
-#include "dem/discs/laws.hpp"
 
 namespace polargrain::dem {
 namespace {
 
-template <int Width_, NormalLaw Normal_, TangentialLaw Tangential_, RollingLaw Rolling_, bool Bare_>
-struct DiscLawKind {
-  static constexpr int width = Width_;
-  static constexpr NormalLaw normal = Normal_;
-  static constexpr TangentialLaw tangential = Tangential_;
-  static constexpr RollingLaw rolling = Rolling_;
-  static constexpr bool bare = Bare_;  ///< every setting is off, but the mean radius
+template <int Width, NormalLaw Normal, typename Kind>
+struct DiscPassOf {
+  using Number = Lanes<Width>;
+  using Sum = RowOfLane<Width>;
+  using Contact = DiscContact<Normal, Kind, Number>;
   static constexpr bool has_spring(int place) {
     if (place == 0) return true;
-    if (place == 1) return Tangential_ == TangentialLaw::history || !Bare_;
-    return Rolling_ != RollingLaw::off;
+    if (place == 1) return Kind::tangential == TangentialLaw::history || !Kind::bare;
+    return Kind::rolling != RollingLaw::off;
   }
-};
-
-template <typename Kind>
-struct DiscPassOf {
-  using Number = Lanes<Kind::width>;
-  using Sum = RowOfLane<Kind::width>;
   /// Candidates that are treated before their forces are summed up: the processor then has several of them in hand.
   static constexpr int kStretch = 64;
   /// Force on the first disc, two; minus the moment that it takes; the moment that the second one takes.
@@ -102,16 +94,19 @@ struct DiscPassOf {
     pair.over_distance = load<Number>(from[5]);
     pair.spin_first = gathered(&pass.discs->spin, pass.first + c);
     pair.spin_second = gathered(&pass.discs->spin, pass.second + c);
-    pair.radius_first = load<Number>(pass.radius_first + c);
-    pair.radius_second = load<Number>(pass.radius_second + c);
+    GrainPair<Number>& grains = pair.grains;
+    grains.radius_first = load<Number>(pass.radius_first + c);
+    grains.radius_second = load<Number>(pass.radius_second + c);
+    grains.inverse_mass_first = grains.inverse_mass_second = Number{};
+    grains.inverse_inertia_first = grains.inverse_inertia_second = Number{};
     // Dashpots alone ask for masses.
     if (!Kind::bare && pass.settings.has_dashpots()) {
-      pair.inverse_mass_first = gathered(&pass.discs->inverse_mass, pass.first + c);
-      pair.inverse_mass_second = gathered(&pass.discs->inverse_mass, pass.second + c);
-      pair.inverse_inertia_first = gathered(&pass.discs->inverse_inertia, pass.first + c);
-      pair.inverse_inertia_second = gathered(&pass.discs->inverse_inertia, pass.second + c);
+      grains.inverse_mass_first = gathered(&pass.discs->inverse_mass, pass.first + c);
+      grains.inverse_mass_second = gathered(&pass.discs->inverse_mass, pass.second + c);
+      grains.inverse_inertia_first = gathered(&pass.discs->inverse_inertia, pass.first + c);
+      grains.inverse_inertia_second = gathered(&pass.discs->inverse_inertia, pass.second + c);
     }
-    pair.harmonic = load<Number>(pass.harmonic + c);
+    grains.harmonic = load<Number>(pass.harmonic + c);
     return pair;
   }
 
@@ -119,36 +114,29 @@ struct DiscPassOf {
   POLARGRAIN_INLINE static void treat(const DiscPass& pass, int c, const DiscPair<Number>& pair,
                                       double* const (&out)[4]) {
     const auto touching = pair.touches();
-    const Touch<Number> touch = touch_of(pair, pass.bend_x, pass.bend_y);
-    LawSettings settings = pass.settings;
-    if constexpr (Kind::bare) {
-      settings = LawSettings{};
-      settings.mean_radius = pass.settings.mean_radius;
-    }
     const ParametersOf<Number> p = parameters(pass, c);
     Number springs[kDiscSprings]{};
     for (int k = 0; k < kDiscSprings; ++k)
-      if (Kind::has_spring(k)) springs[k] = load<Number>(pass.springs[k] + c);
-    const NormalAnswer<Number> normal = normal_law<Kind::normal>(p, settings, touch);
-    const Number tangential =
-        tangential_law<Kind::tangential>(p, settings, touch, normal, pass.step, pass.advance, springs);
-    const RollingAnswer<Number> rolling =
-        rolling_law<Kind::rolling>(p, settings, touch, normal, pass.step, pass.advance, springs);
+      if (has_spring(k)) springs[k] = load<Number>(pass.springs[k] + c);
+    ContactLaw<Kind, Contact> law(pass.settings, pass.step, pass.advance, pair, p, pass.settings, pass.bend_x,
+                                  pass.bend_y, &springs[0]);
+    const LawAnswer<Contact> made = law();
+    const Contact& contact = law.contact;
     // Discs that have parted forget their springs.
     if (pass.advance)
       for (int k = 0; k < kDiscSprings; ++k)
-        if (Kind::has_spring(k)) store(pass.springs[k] + c, select(touching, springs[k], Number{}));
+        if (has_spring(k)) store(pass.springs[k] + c, select(touching, springs[k], Number{}));
 
-    Number turn_first = touch.arm_first * tangential;
-    Number turn_second = touch.arm_second * tangential;
+    Number turn_first = contact.arm_first * made.resistance;
+    Number turn_second = contact.arm_second * made.resistance;
     if constexpr (Kind::rolling != RollingLaw::off) {
-      turn_first = turn_first + rolling.moment;
-      turn_second = turn_second - rolling.moment;
+      turn_first = turn_first - made.moment;
+      turn_second = turn_second + made.moment;
     }
-    store(out[0], select(touching, normal.force * touch.nx - tangential * touch.ny, Number{}));
-    store(out[1], select(touching, normal.force * touch.ny + tangential * touch.nx, Number{}));
-    store(out[2], select(touching, -turn_first, Number{}));
-    store(out[3], select(touching, turn_second, Number{}));
+    store(out[0], select(touching, made.normal * contact.nx + made.resistance * contact.ny, Number{}));
+    store(out[1], select(touching, made.normal * contact.ny - made.resistance * contact.nx, Number{}));
+    store(out[2], select(touching, turn_first, Number{}));
+    store(out[3], select(touching, -turn_second, Number{}));
     if (!pass.records) return;
     const auto put = [&pass, c](int column, Number value) POLARGRAIN_INLINE_LAMBDA {
       store(pass.records + static_cast<long>(column) * pass.candidates + c, value);
@@ -158,26 +146,26 @@ struct DiscPassOf {
     put(DiscRecord::delta + 1, pair.dy);
     put(DiscRecord::force, load<Number>(out[0]));
     put(DiscRecord::force + 1, load<Number>(out[1]));
-    put(DiscRecord::moment, rolling.moment);
-    put(DiscRecord::stiffnesses, normal.kn);
-    put(DiscRecord::stiffnesses + 1, normal.kt);
-    put(DiscRecord::dashpots, normal.normal_dashpot);
-    put(DiscRecord::dashpots + 1, normal.tangential_dashpot);
-    put(DiscRecord::arms, touch.arm_first);
-    put(DiscRecord::arms + 1, touch.arm_second);
-    put(DiscRecord::rolling, rolling.stiffness);
-    put(DiscRecord::rolling_limit, rolling.limit);
-    put(DiscRecord::is_rolling, rolling.at_limit);
+    put(DiscRecord::moment, made.moment);
+    put(DiscRecord::stiffnesses, made.stiff.normal);
+    put(DiscRecord::stiffnesses + 1, made.stiff.tangential);
+    put(DiscRecord::dashpots, made.stiff.normal_dashpot);
+    put(DiscRecord::dashpots + 1, made.stiff.tangential_dashpot);
+    put(DiscRecord::arms, contact.arm_first);
+    put(DiscRecord::arms + 1, contact.arm_second);
+    put(DiscRecord::rolling, made.rolling_stiffness);
+    put(DiscRecord::rolling_limit, made.rolling_limit);
+    put(DiscRecord::is_rolling, made.is_rolling);
   }
 
   /// Adds the answers of as many candidates as there are lanes to the sums of their rows and to the second discs.
   /// @param begin of the stretch; @param k candidates of the stretch before these
   POLARGRAIN_INLINE static void sum_up(const DiscPass& pass, int begin, int k, const Answers& answers,
                                        Sum& sum) {
-    Sum rows[Kind::width];
+    Sum rows[Width];
     rows_of({load<Number>(answers[0] + k), load<Number>(answers[1] + k), load<Number>(answers[2] + k)},
             load<Number>(answers[3] + k), rows);
-    for (int lane = 0; lane < Kind::width; ++lane) {
+    for (int lane = 0; lane < Width; ++lane) {
       const int c = begin + k + lane;
       sum = rows[lane].plus_kept(sum, pass.continues[c]);
       sum.put(force_at(pass.row_sums, pass.first[c]));
@@ -195,14 +183,14 @@ struct DiscPassOf {
       count = pass.candidates - begin < kStretch ? pass.candidates - begin : kStretch;
       // Each sum waits for the one before, each quotient for the divider: side by side they cost one of the two.
       const int summed = begin > 0 ? kStretch : 0;
-      for (int k = 0; k < kStretch; k += Kind::width) {
+      for (int k = 0; k < kStretch; k += Width) {
         if (k < summed) sum_up(pass, begin - kStretch, k, answers, sum);
         if (k < count)
           approach(pass, begin + k,
                    {meetings[0] + k, meetings[1] + k, meetings[2] + k, meetings[3] + k, meetings[4] + k,
                     meetings[5] + k});
       }
-      for (int k = 0; k < count; k += Kind::width) {
+      for (int k = 0; k < count; k += Width) {
         const DiscPair<Number> pair = meet(pass, begin + k,
                                            {meetings[0] + k, meetings[1] + k, meetings[2] + k,
                                             meetings[3] + k, meetings[4] + k, meetings[5] + k});
@@ -210,7 +198,7 @@ struct DiscPassOf {
         treat(pass, begin + k, pair, out);
       }
     }
-    for (int k = 0; k < count; k += Kind::width) sum_up(pass, pass.candidates - count, k, answers, sum);
+    for (int k = 0; k < count; k += Width) sum_up(pass, pass.candidates - count, k, answers, sum);
     for (int k = 0; k < pass.count; ++k) {
       const double* const from = row(pass.row_sums + k);
       double* const to = row(pass.forces + k);
@@ -223,8 +211,8 @@ template <int Width, NormalLaw Normal, TangentialLaw Tangential, RollingLaw Roll
 void list_settings(DiscKernels& kernels) {
   auto& pair =
       kernels.pass[static_cast<int>(Normal)][static_cast<int>(Tangential)][static_cast<int>(Rolling)];
-  pair[0] = &DiscPassOf<DiscLawKind<Width, Normal, Tangential, Rolling, false>>::run;
-  pair[1] = &DiscPassOf<DiscLawKind<Width, Normal, Tangential, Rolling, true>>::run;
+  pair[0] = &DiscPassOf<Width, Normal, LawKind<Tangential, Rolling, false, false>>::run;
+  pair[1] = &DiscPassOf<Width, Normal, LawKind<Tangential, Rolling, false, true>>::run;
 }
 
 template <int Width, NormalLaw Normal, TangentialLaw Tangential>

@@ -3,7 +3,7 @@
 // The data that the compiled kernels of the loop over discs read and write: plain numbers and pointers, because each kernel
 // is compiled for an instruction set of its own (dem/lanes/vectors.hpp).
 #include "dem/discs/disc.hpp"
-#include "dem/discs/law_settings.hpp"
+#include "dem/laws/law_settings.hpp"
 
 namespace polargrain::dem {
 

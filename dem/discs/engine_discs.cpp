@@ -6,7 +6,7 @@
 #include "common/error.hpp"
 #include "dem/box/engine_grains.hpp"
 #include "dem/discs/disc_box.hpp"
-#include "dem/discs/law_settings.hpp"
+#include "dem/laws/law_settings.hpp"
 
 namespace polargrain::dem {
 
@@ -19,12 +19,12 @@ struct HistoryPlaces {
   int rolling = 3;
   int rolling_force = 3;
 
-  explicit HistoryPlaces(const DiscCombination& combination)
+  explicit HistoryPlaces(const LawCombination& combination)
       : rolling_force(combination.rolling == RollingLaw::off ? 3 : 6) {}
 };
 
 /// Springs of the loop over discs from the engine's history, which holds vectors as the first disc sees them.
-void read_springs(const double* history, const DiscCombination& combination, const Eigen::Vector2d& normal,
+void read_springs(const double* history, const LawCombination& combination, const Eigen::Vector2d& normal,
                   double* springs) {
   const HistoryPlaces places(combination);
   const Eigen::Vector2d along(-normal.y(), normal.x());
@@ -44,7 +44,7 @@ void read_springs(const double* history, const DiscCombination& combination, con
 }
 
 /// The opposite of read_springs.
-void write_springs(const double* springs, const DiscCombination& combination, const Eigen::Vector2d& normal,
+void write_springs(const double* springs, const LawCombination& combination, const Eigen::Vector2d& normal,
                    double* history) {
   const HistoryPlaces places(combination);
   const Eigen::Vector2d along(-normal.y(), normal.x());
@@ -80,7 +80,7 @@ LatticeVector nearest_image(const Eigen::Vector2d& between, const Eigen::Matrix2
 
 }  // namespace
 
-DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination,
+DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination,
                                     double thickness) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   DiscBox::Definition definition;
@@ -95,7 +95,7 @@ DiscBox::Definition disc_definition(LAMMPS_NS::LAMMPS& lammps, const DiscCombina
   return definition;
 }
 
-Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<2>& box,
+Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Box<2>& box,
                           std::span<const double> rotations) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
   Snapshot<2> snapshot;
@@ -122,7 +122,7 @@ Snapshot<2> disc_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& comb
   return snapshot;
 }
 
-void put_discs(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<2>& snapshot) {
+void put_discs(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Snapshot<2>& snapshot) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
   auto* const history = static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair)->get_fix_history();
   if (snapshot.grains.size() != static_cast<std::size_t>(atom.nlocal) ||

@@ -2,38 +2,77 @@
 // The loop over the contacts of discs as the equations have it (docs/theory/grains.md, C.1 and D).
 #include "dem/discs/plain_contact_loop.hpp"
 
-#include "dem/discs/laws.hpp"
+#include "dem/discs/disc_contact.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 
-NormalAnswer<double> normal_answer(const DiscCombination& combination, const PairParameters& p,
-                                   const Touch<double>& touch) {
-  switch (combination.normal) {
-    case NormalLaw::hooke_radii:
-      return normal_law<NormalLaw::hooke_radii>(p, combination.settings, touch);
-    case NormalLaw::hooke_stiffness:
-      return normal_law<NormalLaw::hooke_stiffness>(p, combination.settings, touch);
-    case NormalLaw::hertz:
-      return normal_law<NormalLaw::hertz>(p, combination.settings, touch);
-  }
-  return {};
+/// The law of a contact on numbers of one lane.
+struct Answer {
+  double force_x, force_y;  ///< on the first, N
+  double turn_first, turn_second;
+  double moment;
+  Stiffnesses<double> stiff;
+  double arm_first, arm_second, rolling_stiffness, rolling_limit, is_rolling;
+};
+
+using Scene = PlainContactLoop::Scene;
+
+template <NormalLaw Normal, TangentialLaw Tangential, RollingLaw Rolling>
+Answer answer_of(const Scene& scene, const LawSettings& on, const PairParameters& p,
+                 const DiscPair<double>& pair, double* springs) {
+  using Kind = LawKind<Tangential, Rolling, false, false>;
+  using Contact = DiscContact<Normal, Kind, double>;
+  ContactLaw<Kind, Contact> law(on, scene.step, scene.advance, pair, p, on, scene.curvature_rate.x(),
+                                scene.curvature_rate.y(), springs);
+  const LawAnswer<Contact> made = law();
+  const Contact& contact = law.contact;
+  return {made.normal * contact.nx + made.resistance * contact.ny,
+          made.normal * contact.ny - made.resistance * contact.nx,
+          contact.arm_first * made.resistance - made.moment,
+          contact.arm_second * made.resistance + made.moment,
+          made.moment,
+          made.stiff,
+          contact.arm_first,
+          contact.arm_second,
+          made.rolling_stiffness,
+          made.rolling_limit,
+          made.is_rolling};
 }
 
-RollingAnswer<double> rolling_answer(const DiscCombination& combination, const PairParameters& p,
-                                     const Touch<double>& touch, const NormalAnswer<double>& normal,
-                                     const PlainContactLoop::Scene& scene, double* springs) {
-  const LawSettings& on = combination.settings;
-  switch (combination.rolling) {
+using LawOfContact = Answer (*)(const Scene&, const LawSettings&, const PairParameters&,
+                                const DiscPair<double>&, double*);
+
+template <NormalLaw Normal, TangentialLaw Tangential>
+LawOfContact law_with(RollingLaw rolling) {
+  switch (rolling) {
     case RollingLaw::off:
-      return {};
+      return &answer_of<Normal, Tangential, RollingLaw::off>;
     case RollingLaw::epsd2:
-      return rolling_law<RollingLaw::epsd2>(p, on, touch, normal, scene.step, scene.advance, springs);
+      return &answer_of<Normal, Tangential, RollingLaw::epsd2>;
     case RollingLaw::li_chu:
-      return rolling_law<RollingLaw::li_chu>(p, on, touch, normal, scene.step, scene.advance, springs);
+      return &answer_of<Normal, Tangential, RollingLaw::li_chu>;
   }
-  return {};
+  return nullptr;
+}
+
+template <NormalLaw Normal>
+LawOfContact law_with(const LawCombination& laws) {
+  return laws.tangential == TangentialLaw::history ? law_with<Normal, TangentialLaw::history>(laws.rolling)
+                                                   : law_with<Normal, TangentialLaw::li_chu>(laws.rolling);
+}
+
+LawOfContact law_of(const LawCombination& laws) {
+  switch (laws.normal) {
+    case NormalLaw::hooke_radii:
+      return law_with<NormalLaw::hooke_radii>(laws);
+    case NormalLaw::hooke_stiffness:
+      return law_with<NormalLaw::hooke_stiffness>(laws);
+    case NormalLaw::hertz:
+      return law_with<NormalLaw::hertz>(laws);
+  }
+  return nullptr;
 }
 
 DiscPair<double> meet(const PlainContactLoop::Scene& scene, const CandidateList& list, int c) {
@@ -47,13 +86,8 @@ DiscPair<double> meet(const PlainContactLoop::Scene& scene, const CandidateList&
   pair.vy = a.vy - b.vy - image.vy;
   pair.spin_first = a.spin;
   pair.spin_second = b.spin;
-  pair.radius_first = a.radius;
-  pair.radius_second = b.radius;
-  pair.harmonic = list.harmonic[c];
-  pair.inverse_mass_first = a.inverse_mass;
-  pair.inverse_mass_second = b.inverse_mass;
-  pair.inverse_inertia_first = a.inverse_inertia;
-  pair.inverse_inertia_second = b.inverse_inertia;
+  pair.grains = {a.radius,       b.radius,          list.harmonic[c], a.inverse_mass,
+                 b.inverse_mass, a.inverse_inertia, b.inverse_inertia};
   return pair;
 }
 
@@ -61,6 +95,7 @@ DiscPair<double> meet(const PlainContactLoop::Scene& scene, const CandidateList&
 
 void PlainContactLoop::add_forces(const Scene& scene, CandidateList& list,
                                   std::span<DiscForce> forces) const {
+  const LawOfContact law = law_of(combination_);
   for (std::size_t i = 0; i < scene.discs.size(); ++i) {
     DiscForce sum;
     for (std::int32_t c = list.rows[i]; c < list.rows[i + 1]; ++c) {
@@ -72,47 +107,36 @@ void PlainContactLoop::add_forces(const Scene& scene, CandidateList& list,
         continue;
       }
       pair.measure();
-      const Touch<double> touch = touch_of(pair, scene.curvature_rate.x(), scene.curvature_rate.y());
-      const PairParameters& p = combination_.pairs[list.kind[c]];
-      const NormalAnswer<double> normal = normal_answer(combination_, p, touch);
       double springs[kDiscSprings] = {list.springs[0][c], list.springs[1][c], list.springs[2][c]};
-      const double tangential =
-          combination_.tangential == TangentialLaw::history
-              ? tangential_law<TangentialLaw::history>(p, combination_.settings, touch, normal, scene.step,
-                                                       scene.advance, springs)
-              : tangential_law<TangentialLaw::li_chu>(p, combination_.settings, touch, normal, scene.step,
-                                                      scene.advance, springs);
-      const RollingAnswer<double> rolling = rolling_answer(combination_, p, touch, normal, scene, springs);
-      for (int k = 0; k < kDiscSprings; ++k) list.springs[k][c] = springs[k];
-
-      const double fx = normal.force * touch.nx - tangential * touch.ny;  // on the first
-      const double fy = normal.force * touch.ny + tangential * touch.nx;
-      sum.x += fx;
-      sum.y += fy;
-      sum.torque -= touch.arm_first * tangential + rolling.moment;
+      const Answer made = law(scene, combination_.settings, combination_.pairs[list.kind[c]], pair, springs);
+      if (scene.advance)
+        for (int k = 0; k < kDiscSprings; ++k) list.springs[k][c] = springs[k];
+      sum.x += made.force_x;
+      sum.y += made.force_y;
+      sum.torque += made.turn_first;
       DiscForce& other = forces[list.second[c]];
-      other.x -= fx;
-      other.y -= fy;
-      other.torque -= touch.arm_second * tangential - rolling.moment;
+      other.x -= made.force_x;
+      other.y -= made.force_y;
+      other.torque += made.turn_second;
 
       if (!scene.records) continue;
-      const double made[] = {1.0,
-                             pair.dx,
-                             pair.dy,
-                             fx,
-                             fy,
-                             rolling.moment,
-                             normal.kn,
-                             normal.kt,
-                             normal.normal_dashpot,
-                             normal.tangential_dashpot,
-                             touch.arm_first,
-                             touch.arm_second,
-                             rolling.stiffness,
-                             rolling.limit,
-                             rolling.at_limit};
+      const double record[] = {1.0,
+                               pair.dx,
+                               pair.dy,
+                               made.force_x,
+                               made.force_y,
+                               made.moment,
+                               made.stiff.normal,
+                               made.stiff.tangential,
+                               made.stiff.normal_dashpot,
+                               made.stiff.tangential_dashpot,
+                               made.arm_first,
+                               made.arm_second,
+                               made.rolling_stiffness,
+                               made.rolling_limit,
+                               made.is_rolling};
       for (int column = 0; column < DiscRecord::columns; ++column)
-        scene.records[static_cast<std::size_t>(column) * list.second.size() + c] = made[column];
+        scene.records[static_cast<std::size_t>(column) * list.second.size() + c] = record[column];
     }
     forces[i].x += sum.x;
     forces[i].y += sum.y;

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "dem/discs/candidates.hpp"
-#include "dem/discs/combination.hpp"
 #include "dem/discs/disc_pass.hpp"
+#include "dem/laws/combination.hpp"
 
 namespace polargrain::dem {
 
@@ -22,13 +22,13 @@ class PlainContactLoop {
     double* records = nullptr;            ///< as of a DiscPass
   };
 
-  explicit PlainContactLoop(const DiscCombination& combination) : combination_(combination) {}
+  explicit PlainContactLoop(const LawCombination& combination) : combination_(combination) {}
 
   /// Adds the contact forces to `forces`; moves the springs of `list`.
   void add_forces(const Scene& scene, CandidateList& list, std::span<DiscForce> forces) const;
 
  private:
-  DiscCombination combination_;
+  LawCombination combination_;
 };
 
 }  // namespace polargrain::dem

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include "dem/discs/combination.hpp"
+#include "dem/laws/combination.hpp"
 #include "dem/sphere_loop/sphere_pass.hpp"
 
 namespace polargrain::dem {
 
 /// Which of the engine's values of a contact a spring of the loop is, in the order in which the models ask for them:
 /// sliding, rolling, then a rolling displacement, then a torsion. -1: the engine has no such place.
-inline std::array<int, kSphereSprings> history_places(const DiscCombination& laws) {
+inline std::array<int, kSphereSprings> history_places(const LawCombination& laws) {
   std::array<int, kSphereSprings> places{};
   places.fill(-1);
   int next = 0;
@@ -25,7 +25,7 @@ inline std::array<int, kSphereSprings> history_places(const DiscCombination& law
 }
 
 /// How many values the engine keeps of a contact.
-inline int history_values(const DiscCombination& laws) {
+inline int history_values(const LawCombination& laws) {
   int values = 0;
   for (const int place : history_places(laws)) values = std::max(values, place + 1);
   return values;

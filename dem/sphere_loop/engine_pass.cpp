@@ -32,7 +32,7 @@ constexpr double kMassOfFrozen = 1e200;  // kg
 /// them are dropped, as each process computes its own side of a contact. Springs stay here while a list lasts.
 class EnginePass final : public ForcePass {
  public:
-  EnginePass(LAMMPS& lammps, PairGran& pair, DiscCombination combination)
+  EnginePass(LAMMPS& lammps, PairGran& pair, LawCombination combination)
       : lammps_(lammps),
         pair_(pair),
         kernel_(kernel_of(sphere_kernels(best_instruction_set()), combination)),
@@ -116,8 +116,13 @@ class EnginePass final : public ForcePass {
     spheres_.radii.assign(atom.radius, atom.radius + count);
     list_masses_.assign(atom.rmass, atom.rmass + count);
     spheres_.masses = list_masses_;
+    spheres_.inertias.resize(n);
     spheres_.types.resize(n);
+    // As the rolling law of the engine takes them, of frozen grains too.
+    const double shape = lammps_.domain->dimension == 2 ? 0.5 : 0.4;
     for (int k = 0; k < count; ++k) {
+      spheres_.inertias[static_cast<std::size_t>(k)] =
+          shape * atom.rmass[k] * atom.radius[k] * atom.radius[k];
       spheres_.types[static_cast<std::size_t>(k)] = atom.type[k] - 1;
       if (atom.mask[k] & pair_.freeze_group_bit())
         spheres_.masses[static_cast<std::size_t>(k)] = kMassOfFrozen;
@@ -246,7 +251,7 @@ void tell(LAMMPS& lammps, const std::string& line) {
 }
 
 std::unique_ptr<ForcePass> make_pass(LAMMPS& lammps, PairGran& pair) {
-  DiscSelection selection = sphere_models(lammps);
+  LawSelection selection = known_models(lammps);
   if (selection.combination && pair.dnum() != history_values(*selection.combination))
     selection = {std::nullopt, "a fix that keeps values of contacts beside the models"};
   if (!selection.combination) {

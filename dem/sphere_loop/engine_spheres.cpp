@@ -35,7 +35,7 @@ SpaceLattice nearest_image(const Eigen::Vector3d& between, const Eigen::Matrix3d
   return nearest;
 }
 
-LAMMPS_NS::FixContactHistory* history_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& laws) {
+LAMMPS_NS::FixContactHistory* history_of(LAMMPS_NS::LAMMPS& lammps, const LawCombination& laws) {
   auto* const history = static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair)->get_fix_history();
   if (history == nullptr || history->get_dnum() != history_values(laws))
     throw RunError("the contact models keep other values than the loop over spheres knows");
@@ -44,19 +44,20 @@ LAMMPS_NS::FixContactHistory* history_of(LAMMPS_NS::LAMMPS& lammps, const DiscCo
 
 }  // namespace
 
-Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination) {
+Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination) {
   const LAMMPS_NS::Atom& atom = *lammps.atom;
   Spheres spheres;
   spheres.combination = combination;
   for (int k = 0; k < atom.nlocal; ++k) {
     spheres.radii.push_back(atom.radius[k]);
     spheres.masses.push_back(atom.rmass[k]);
+    spheres.inertias.push_back(sphere_inertia(atom.rmass[k], atom.radius[k]));
     spheres.types.push_back(atom.type[k] - 1);
   }
   return spheres;
 }
 
-Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<3>& box,
+Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Box<3>& box,
                             std::span<const double> rotations) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
   Snapshot<3> snapshot;
@@ -80,7 +81,7 @@ Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& co
   return snapshot;
 }
 
-void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<3>& snapshot) {
+void put_spheres(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Snapshot<3>& snapshot) {
   LAMMPS_NS::Atom& atom = *lammps.atom;
   if (snapshot.grains.size() != static_cast<std::size_t>(atom.nlocal) ||
       snapshot.code != combination.code() || snapshot.springs != sphere_spring_count(combination))

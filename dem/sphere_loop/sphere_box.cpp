@@ -50,7 +50,7 @@ SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
     largest_radius_ = std::max(largest_radius_, radius);
     grains_[k * kGrainStride + 3] = radius;
     inverse_mass_.push_back(1.0 / spheres_.masses[k]);
-    inverse_inertia_.push_back(1.0 / (kSphereInertia * spheres_.masses[k] * radius * radius));
+    inverse_inertia_.push_back(1.0 / spheres_.inertias[k]);
   }
   grains_[(n + 1) * kGrainStride] = 1.0;  // two places without a grain lie apart
   skin_ = kSphereSkin * mean;
@@ -170,7 +170,7 @@ void SphereBox::read_records() const {
 
 Contact SphereBox::contact_of(int candidate, const double* record) const {
   const auto at = [record](int which) { return record[which * kBlock]; };
-  const DiscCombination& laws = spheres_.combination;
+  const LawCombination& laws = spheres_.combination;
   Contact contact;
   contact.first = list_.first[candidate];
   contact.second = list_.second[candidate];

@@ -107,13 +107,13 @@ class SphereBox final : public GrainBox<3> {
 };
 
 /// The spheres of an initialised engine as they stand there, with the springs of its contact histories.
-Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination);
-Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Box<3>& box,
+Spheres spheres_of(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination);
+Snapshot<3> sphere_snapshot(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Box<3>& box,
                             std::span<const double> rotations);
 
 /// The way back: places, motions and contact histories of the engine's grains from a snapshot, for those who go on in
 /// the engine's own loop. The box is the caller's business; lists are not set up.
 /// @throws RunError when the snapshot is not one of these grains and models
-void put_spheres(LAMMPS_NS::LAMMPS& lammps, const DiscCombination& combination, const Snapshot<3>& snapshot);
+void put_spheres(LAMMPS_NS::LAMMPS& lammps, const LawCombination& combination, const Snapshot<3>& snapshot);
 
 }  // namespace polargrain::dem

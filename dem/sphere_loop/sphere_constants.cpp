@@ -1,75 +1,88 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "dem/sphere_loop/sphere_constants.hpp"
 
-#include <cmath>
+#include "dem/laws/contact_constants.hpp"
 
 namespace polargrain::dem {
 
 namespace {
 
-double of_both(double first, double second) {
-  return first * second / (first + second);
-}
-
 using Constants = std::array<double, kSphereConstants>;
 
-/// Stiffnesses and dashpots of the normal law.
-void add_normal(const DiscCombination& laws, const PairParameters& p, double harmonic, double mass,
-                Constants& made) {
-  double& kn = made[kNormalStiffness];
-  double& kt = made[kTangentialStiffness];
+/// Hertz's for an overlap of one.
+template <NormalLaw Normal>
+Stiffnesses<double> unit_stiffnesses(const LawSettings& on, const PairParameters& p,
+                                     const GrainPair<double>& grains) {
+  Stiffnesses<double> made;
+  stiffnesses_of<Normal>(p, on.damped, on.absolute_damping, grains, 1.0, made);
+  return made;
+}
+
+Stiffnesses<double> unit_stiffnesses(const LawCombination& laws, const PairParameters& p,
+                                     const GrainPair<double>& grains) {
   switch (laws.normal) {
     case NormalLaw::hooke_radii:
-      kn = p.normal * harmonic;
-      kt = p.tangential * kn;
-      made[kNormalDashpot] = 2.0 * p.normal_damping * std::sqrt(kn * mass);
-      made[kTangentialDashpot] = 2.0 * p.tangential_damping * std::sqrt(kt * mass);
-      break;
-    case NormalLaw::hooke_stiffness: {
-      const double factor = laws.settings.absolute_damping ? 1.0 : mass;
-      kn = p.normal;
-      kt = p.tangential;
-      made[kNormalDashpot] = factor * p.normal_damping;
-      made[kTangentialDashpot] = factor * p.tangential_damping;
-      break;
-    }
-    case NormalLaw::hertz: {
-      const double root = std::sqrt(harmonic);
-      kn = p.normal * root;
-      kt = p.tangential * root;
-      made[kNormalDashpot] = p.normal_damping * std::sqrt(root * mass);
-      made[kTangentialDashpot] = p.tangential_damping * std::sqrt(root * mass);
-      break;
-    }
+      return unit_stiffnesses<NormalLaw::hooke_radii>(laws.settings, p, grains);
+    case NormalLaw::hooke_stiffness:
+      return unit_stiffnesses<NormalLaw::hooke_stiffness>(laws.settings, p, grains);
+    case NormalLaw::hertz:
+      return unit_stiffnesses<NormalLaw::hertz>(laws.settings, p, grains);
   }
+  return {};
+}
+
+struct Rolling {
+  double stiffness, reach;  ///< N m, m
+};
+template <RollingLaw Law>
+Rolling rolling_of(const LawSettings& on, const PairParameters& p, double kt,
+                   const GrainPair<double>& grains) {
+  const double radius = rolling_radius<Law>(on, grains);
+  return {rolling_stiffness_of<Law>(p, kt, radius), p.rolling_friction * radius};
+}
+
+GrainPair<double> pair_of(const Spheres& spheres, std::size_t i, std::size_t j) {
+  const double a = spheres.radii[i];
+  const double b = spheres.radii[j];
+  return {a,
+          b,
+          a * b / (a + b),
+          1.0 / spheres.masses[i],
+          1.0 / spheres.masses[j],
+          1.0 / spheres.inertias[i],
+          1.0 / spheres.inertias[j]};
 }
 
 Constants constants_of(const Spheres& spheres, int first, int second) {
-  const DiscCombination& laws = spheres.combination;
+  const LawCombination& laws = spheres.combination;
   const auto i = static_cast<std::size_t>(first);
   const auto j = static_cast<std::size_t>(second);
   const PairParameters& p =
       laws.pairs[static_cast<std::size_t>(spheres.types[i]) * laws.types + spheres.types[j]];
-  const double harmonic = of_both(spheres.radii[i], spheres.radii[j]);
-  const double mass = of_both(spheres.masses[i], spheres.masses[j]);
+  const GrainPair<double> grains = pair_of(spheres, i, j);
+  const Stiffnesses<double> stiff = unit_stiffnesses(laws, p, grains);
+  const double kt = stiff.tangential;
   Constants made{};
-  add_normal(laws, p, harmonic, mass, made);
+  made[kNormalStiffness] = stiff.normal;
+  made[kTangentialStiffness] = kt;
+  made[kNormalDashpot] = stiff.normal_dashpot;
+  made[kTangentialDashpot] = stiff.tangential_dashpot;
   made[kFriction] = p.friction;
-  const double kt = made[kTangentialStiffness];
-
-  const bool is_li_chu = laws.rolling == RollingLaw::li_chu;
-  const double radius =
-      is_li_chu && laws.settings.mean_radius ? 0.5 * (spheres.radii[i] + spheres.radii[j]) : harmonic;
-  made[kRollingStiffness] = (is_li_chu ? p.rolling_stiffness : 1.0) * kt * radius * radius;
-  made[kRollingReach] = p.rolling_friction * radius;
+  const Rolling rolling = laws.rolling == RollingLaw::li_chu
+                              ? rolling_of<RollingLaw::li_chu>(laws.settings, p, kt, grains)
+                              : rolling_of<RollingLaw::epsd2>(laws.settings, p, kt, grains);
+  made[kRollingStiffness] = rolling.stiffness;
+  made[kRollingReach] = rolling.reach;
+  made[kRollingDashpot] = rolling_dashpot_of(p, made[kRollingStiffness], grains);
   made[kForceStiffness] = p.rolling_force_stiffness * kt;
   made[kForceFriction] = p.rolling_force_friction;
-  made[kHarmonicRadius] = harmonic;
+  made[kForceDashpot] = force_dashpot_of(p, made[kForceStiffness], grains);
+  made[kHarmonicRadius] = grains.harmonic;
   return made;
 }
 
 /// Which constants the kernels of a combination read.
-std::array<bool, kSphereConstants> constants_read(const DiscCombination& laws) {
+std::array<bool, kSphereConstants> constants_read(const LawCombination& laws) {
   const LawSettings& on = laws.settings;
   const bool rolls = laws.rolling != RollingLaw::off;
   std::array<bool, kSphereConstants> read{};
@@ -77,37 +90,39 @@ std::array<bool, kSphereConstants> constants_read(const DiscCombination& laws) {
   read[kNormalDashpot] = read[kTangentialDashpot] = on.damped;
   read[kRollingStiffness] = read[kRollingReach] = rolls;
   read[kForceStiffness] = read[kHarmonicRadius] = on.rolling_force;
+  read[kForceDashpot] = on.rolling_force_damped;
+  read[kRollingDashpot] = on.rolling_damped;
   read[kForceFriction] = on.rolling_force && !on.symmetric;
   return read;
 }
 
 }  // namespace
 
-bool is_bare(const DiscCombination& combination) {
+bool is_bare(const LawCombination& combination) {
   const LawSettings& on = combination.settings;
   const bool whole_spin = on.torsion && combination.rolling == RollingLaw::epsd2;
-  return !(on.damped || on.limit_force || on.rolling_force || whole_spin);
+  return !(on.damped || on.limit_force || on.rolling_force || on.rolling_damped || whole_spin);
 }
 
-int sphere_spring_count(const DiscCombination& combination) {
+int sphere_spring_count(const LawCombination& combination) {
   const LawSettings& on = combination.settings;
   if (on.rolling_force && !on.symmetric) return kSphereSprings;
   if (combination.rolling == RollingLaw::off) return kBending;
   return combination.rolling == RollingLaw::li_chu && on.torsion ? kTorsion + 1 : kTorsion;
 }
 
-int springs_in_pass(const DiscCombination& combination) {
+int springs_in_pass(const LawCombination& combination) {
   return is_bare(combination) ? sphere_spring_count(combination) : kSphereSprings;
 }
 
-SphereKernels::Pass kernel_of(const SphereKernels& kernels, const DiscCombination& combination) {
+SphereKernels::Pass kernel_of(const SphereKernels& kernels, const LawCombination& combination) {
   int rolling = static_cast<int>(combination.rolling);
   if (combination.rolling == RollingLaw::li_chu && combination.settings.torsion) ++rolling;
   return kernels.pass[combination.normal == NormalLaw::hertz ? 1 : 0]
                      [static_cast<int>(combination.tangential)][rolling][is_bare(combination) ? 1 : 0];
 }
 
-SpherePass pass_over(SphereList& list, const DiscCombination& combination) {
+SpherePass pass_over(SphereList& list, const LawCombination& combination) {
   SpherePass pass{};
   pass.first = list.first_row.data();
   pass.second = list.second_row.data();
@@ -122,8 +137,7 @@ SpherePass pass_over(SphereList& list, const DiscCombination& combination) {
   pass.count = list.count;
   pass.gaps = list.gaps.data();
   pass.active = list.active.data();
-  const LawSettings& on = combination.settings;
-  pass.settings = {on.damped, on.limit_force, on.rolling_force, on.symmetric, on.torsion};
+  pass.settings = combination.settings;
   return pass;
 }
 

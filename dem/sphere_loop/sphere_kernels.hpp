@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 // The passes of the loop over spheres for numbers of some lanes. Included by one file for each instruction set.
-#include "dem/sphere_loop/sphere_laws.hpp"
+#include "dem/sphere_loop/sphere_contact.hpp"
 
 namespace polargrain::dem {
 namespace {
 
-template <typename Kind>
+template <int Width, bool Hertz, typename Kind>
 struct PassOf {
-  using Number = Lanes<Kind::width>;
+  using Number = Lanes<Width>;
+  using Contact = SphereContact<Hertz, Kind, Number>;
 
   /// Candidates that are treated before their forces are summed up: the processor then has several of them in hand.
   static constexpr int kStretch = 64;
   static constexpr int kMeetings = 8;  // difference of places, of velocities, distance, one over it
   struct Stretch {
     alignas(64) double meetings[kMeetings][kStretch];
-    RowOfLane<Kind::width> force[kStretch], torque_first[kStretch],
+    RowOfLane<Width> force[kStretch], torque_first[kStretch],
         torque_second[kStretch];  // force on the first
   };
 
@@ -85,33 +86,38 @@ struct PassOf {
     const Meeting<Number> meeting = meet(pass, c, stretch, k);
     Number springs[kSphereSprings];
     for (int which = 0; which < kSphereSprings; ++which)
-      if (Kind::has_spring(which)) springs[which] = load<Number>(pass.springs[which] + c);
-    Law<Kind, Number> law{pass, c, all<Number>(pass.advance ? pass.step : 0.0), springs};
-    const Meant<Number> made = law(meeting);
+      if (has_spring<Kind>(which)) springs[which] = load<Number>(pass.springs[which] + c);
+    const Number step = all<Number>(pass.advance ? pass.step : 0.0);
+    ContactLaw<Kind, Contact> law(pass.settings, pass.step, pass.advance, pass, c, meeting, step,
+                                  &springs[0]);
+    const LawAnswer<Contact> made = law();
+    const Contact& contact = law.contact;
     if (pass.advance)
       for (int which = 0; which < kSphereSprings; ++which)
-        if (Kind::has_spring(which)) store(pass.springs[which] + c, springs[which]);
-    Vector<Number> torque_a = (-made.arm_first) * made.turning;
-    Vector<Number> torque_b = (-made.arm_second) * made.turning;
-    if constexpr (Kind::rolling != kRollingOff) {
+        if (has_spring<Kind>(which)) store(pass.springs[which] + c, springs[which]);
+    const Vector<Number> force = made.normal * contact.n - made.resistance;
+    const Vector<Number> turning = cross(contact.n, made.resistance);
+    Vector<Number> torque_a = contact.arm_first * turning;
+    Vector<Number> torque_b = contact.arm_second * turning;
+    if constexpr (Kind::rolling != RollingLaw::off) {
       torque_a = torque_a - made.moment;
       torque_b = torque_b + made.moment;
     }
-    RowOfLane<Kind::width> rows[Kind::width];
-    const auto keep = [&rows, k](const Vector<Number>& answer, RowOfLane<Kind::width>* to)
+    RowOfLane<Width> rows[Width];
+    const auto keep = [&rows, k](const Vector<Number>& answer, RowOfLane<Width>* to)
                           POLARGRAIN_INLINE_LAMBDA {
                             rows_of(answer, rows);
-                            for (int lane = 0; lane < Kind::width; ++lane) to[k + lane] = rows[lane];
+                            for (int lane = 0; lane < Width; ++lane) to[k + lane] = rows[lane];
                           };
-    keep(made.force, stretch.force);
+    keep(force, stretch.force);
     keep(torque_a, stretch.torque_first);
     keep(torque_b, stretch.torque_second);
-    if (pass.records) take_down(pass, c, meeting, made);
+    if (pass.records) take_down(pass, c, meeting, contact, force, made);
   }
 
   /// Adds the answers of as many candidates as there are lanes to the forces on their grains.
   POLARGRAIN_INLINE static void sum_up(const SpherePass& pass, int c, const Stretch& stretch, int k) {
-    for (int lane = 0; lane < Kind::width; ++lane) {
+    for (int lane = 0; lane < Width; ++lane) {
       double* const a = force_at(pass, pass.first[c + lane]);
       double* const b = force_at(pass, pass.second[c + lane]);
       stretch.force[k + lane].add_to(a);
@@ -129,17 +135,18 @@ struct PassOf {
       count = end - from < kStretch ? end - from : kStretch;
       // Sums wait for those before them, quotients for the divider: side by side they cost one of the two.
       const int summed = from > begin ? kStretch : 0;
-      for (int k = 0; k < kStretch; k += Kind::width) {
+      for (int k = 0; k < kStretch; k += Width) {
         if (k < summed) sum_up(pass, from - kStretch + k, stretch, k);
         if (k < count) approach<Across>(pass, from + k, stretch, k);
       }
-      for (int k = 0; k < count; k += Kind::width) treat(pass, from + k, stretch, k);
+      for (int k = 0; k < count; k += Width) treat(pass, from + k, stretch, k);
     }
-    for (int k = 0; k < count; k += Kind::width) sum_up(pass, end - count + k, stretch, k);
+    for (int k = 0; k < count; k += Width) sum_up(pass, end - count + k, stretch, k);
   }
 
   POLARGRAIN_INLINE static void take_down(const SpherePass& pass, int c, const Meeting<Number>& meeting,
-                                          const Meant<Number>& made) {
+                                          const Contact& contact, const Vector<Number>& force,
+                                          const LawAnswer<Contact>& made) {
     double* const out = pass.records + static_cast<long>(c / kBlock) * (kBlock * kSphereRecords) + c % kBlock;
     const auto put = [out](int which, Number value) { store(out + which * kBlock, value); };
     const auto put_vector = [&put](int which, const Vector<Number>& a) {
@@ -147,16 +154,16 @@ struct PassOf {
       put(which + 1, a.y);
       put(which + 2, a.z);
     };
-    put(kIsTouching, made.touching);
+    put(kIsTouching, contact.touching);
     put_vector(kDelta, meeting.delta);
-    put_vector(kForce, made.force);
+    put_vector(kForce, force);
     put_vector(kMoment, made.moment);
-    put(kArms, made.arm_first);
-    put(kArms + 1, made.arm_second);
-    put(kStiffnesses, made.normal_stiffness);
-    put(kStiffnesses + 1, made.tangential_stiffness);
-    put(kDashpots, made.normal_dashpot);
-    put(kDashpots + 1, made.tangential_dashpot);
+    put(kArms, contact.arm_first);
+    put(kArms + 1, contact.arm_second);
+    put(kStiffnesses, made.stiff.normal);
+    put(kStiffnesses + 1, made.stiff.tangential);
+    put(kDashpots, made.stiff.normal_dashpot);
+    put(kDashpots + 1, made.stiff.tangential_dashpot);
     put(kRolling, made.rolling_stiffness);
     put(kRollingLimit, made.rolling_limit);
     put(kIsRolling, made.is_rolling);
@@ -167,7 +174,7 @@ struct PassOf {
   template <bool Across>
   POLARGRAIN_INLINE static bool touches(const SpherePass& pass, int begin) {
     bool found = false;
-    for (int c = begin; c < begin + kBlock; c += Kind::width) {
+    for (int c = begin; c < begin + kBlock; c += Width) {
       Number place[4];
       apart<Across>(pass, c, 0, place);
       const Vector<Number> delta{place[0], place[1], place[2]};
@@ -191,9 +198,9 @@ struct PassOf {
 
   template <bool Across>
   POLARGRAIN_INLINE static void treat_block(const SpherePass& pass, Stretch& stretch, int c) {
-    for (int k = 0; k < kBlock; k += Kind::width) approach<Across>(pass, c + k, stretch, k);
-    for (int k = 0; k < kBlock; k += Kind::width) treat(pass, c + k, stretch, k);
-    for (int k = 0; k < kBlock; k += Kind::width) sum_up(pass, c + k, stretch, k);
+    for (int k = 0; k < kBlock; k += Width) approach<Across>(pass, c + k, stretch, k);
+    for (int k = 0; k < kBlock; k += Width) treat(pass, c + k, stretch, k);
+    for (int k = 0; k < kBlock; k += Width) sum_up(pass, c + k, stretch, k);
   }
 
   static void run(const SpherePass& given) {
@@ -314,27 +321,26 @@ void end_a_step(const SphereMotion& given) {
   }
 }
 
-template <int Width, bool Hertz, int Tangential, int Rolling>
+template <int Width, bool Hertz, TangentialLaw Tangential, RollingLaw Rolling, bool Twists>
 POLARGRAIN_INLINE void list_settings(SphereKernels& kernels) {
-  kernels.pass[Hertz][Tangential][Rolling][0] =
-      &PassOf<LawKind<Width, Hertz, Tangential, Rolling, false>>::run;
-  kernels.pass[Hertz][Tangential][Rolling][1] =
-      &PassOf<LawKind<Width, Hertz, Tangential, Rolling, true>>::run;
+  auto& pair = kernels.pass[Hertz][static_cast<int>(Tangential)][static_cast<int>(Rolling) + Twists];
+  pair[0] = &PassOf<Width, Hertz, LawKind<Tangential, Rolling, Twists, false>>::run;
+  pair[1] = &PassOf<Width, Hertz, LawKind<Tangential, Rolling, Twists, true>>::run;
 }
-template <int Width, bool Hertz, int Tangential>
+template <int Width, bool Hertz, TangentialLaw Tangential>
 POLARGRAIN_INLINE void list_rolling(SphereKernels& kernels) {
-  list_settings<Width, Hertz, Tangential, kRollingOff>(kernels);
-  list_settings<Width, Hertz, Tangential, kEpsd2>(kernels);
-  list_settings<Width, Hertz, Tangential, kRollingLiChu>(kernels);
-  list_settings<Width, Hertz, Tangential, kRollingLiChuWithTorsion>(kernels);
+  list_settings<Width, Hertz, Tangential, RollingLaw::off, false>(kernels);
+  list_settings<Width, Hertz, Tangential, RollingLaw::epsd2, false>(kernels);
+  list_settings<Width, Hertz, Tangential, RollingLaw::li_chu, false>(kernels);
+  list_settings<Width, Hertz, Tangential, RollingLaw::li_chu, true>(kernels);
 }
 template <int Width>
 POLARGRAIN_INLINE SphereKernels kernels_of_lanes() {
   SphereKernels kernels{};
-  list_rolling<Width, false, kHistory>(kernels);
-  list_rolling<Width, false, kSlidingLiChu>(kernels);
-  list_rolling<Width, true, kHistory>(kernels);
-  list_rolling<Width, true, kSlidingLiChu>(kernels);
+  list_rolling<Width, false, TangentialLaw::history>(kernels);
+  list_rolling<Width, false, TangentialLaw::li_chu>(kernels);
+  list_rolling<Width, true, TangentialLaw::history>(kernels);
+  list_rolling<Width, true, TangentialLaw::li_chu>(kernels);
   using Numbers = typename OneGrain<Width>::Numbers;
   kernels.begin_step = &begin_a_step<Numbers>;
   kernels.end_step = &end_a_step<Numbers>;

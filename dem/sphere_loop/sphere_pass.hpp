@@ -2,6 +2,7 @@
 #pragma once
 // The data that the compiled kernels of the loop over spheres read and write: plain numbers and pointers, because each kernel is
 // compiled for an instruction set of its own (dem/lanes/vectors.hpp).
+#include "dem/laws/law_settings.hpp"
 
 namespace polargrain::dem {
 
@@ -27,6 +28,8 @@ enum SphereConstant {
   kRollingReach,       ///< the rolling moment at its limit over the normal force, m
   kForceStiffness,     ///< of the rolling friction force of li_chu, N/m
   kForceFriction,      ///< mu_r
+  kForceDashpot,       ///< N s/m
+  kRollingDashpot,     ///< N m s
   kHarmonicRadius,     ///< r_1 r_2 / (r_1 + r_2), m
   kSphereConstants
 };
@@ -56,11 +59,6 @@ enum SphereRecord {
   kSphereRecords
 };
 
-/// Settings that the kernels of general laws ask for as they run (LawSettings).
-struct SphereSettings {
-  bool damped = false, limit_force = false, rolling_force = false, symmetric = false, torsion = false;
-};
-
 /// One pass over the candidates: forces from places, velocities and springs. Candidates stand in four zones, each
 /// filled up to whole blocks with pairs of dummies that never touch:
 ///
@@ -86,7 +84,7 @@ struct SpherePass {
   bool advance;              ///< springs move by a step
   bool bends;                ///< there is a rate of curvature
   double curvature_rate[9];  ///< row after row, rad/(m s)
-  SphereSettings settings;
+  LawSettings settings;
   double* records;  ///< kSphereRecords numbers a candidate, block by block; null: nothing is taken down
 };
 

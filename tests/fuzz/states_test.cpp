@@ -11,7 +11,7 @@
 #include "dem/cell/packed_grains.hpp"
 #include "dem/cell/state_fault.hpp"
 #include "dem/discs/disc_box.hpp"
-#include "dem/discs/law_settings.hpp"
+#include "dem/laws/law_settings.hpp"
 #include "tests/support/flipped_bytes.hpp"
 #include "tests/support/lattice_fixture.hpp"
 
@@ -30,7 +30,7 @@ long runs() {
 /// The cell of the lattice, stepped without an engine.
 DiscBox::Definition discs_of(const Packing& packing) {
   DiscBox::Definition definition;
-  DiscCombination& laws = definition.combination;
+  LawCombination& laws = definition.combination;
   laws.normal = NormalLaw::hooke_stiffness;
   laws.tangential = TangentialLaw::history;
   laws.rolling = RollingLaw::li_chu;
@@ -51,7 +51,7 @@ DiscBox::Definition discs_of(const Packing& packing) {
   return definition;
 }
 
-Snapshot<2> at_rest(const Packing& packing, const DiscCombination& laws) {
+Snapshot<2> at_rest(const Packing& packing, const LawCombination& laws) {
   Snapshot<2> snapshot;
   snapshot.box = Box<2>::from_base_vectors(packing.box);
   snapshot.code = laws.code();

@@ -47,6 +47,20 @@ inline const std::vector<ModelsOfSphereLoop> kCombinationsOfSphereLoop{
      "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on damping on"},
     {"radii_full",
      "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on rollingFrictionForce on"},
+    {"radii_rolling_damped",
+     "hooke/radii tangential history rolling_friction li_chu torsionTorque on rollingDamping on"},
+    {"radii_all_dashpots",
+     "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on damping on rollingDamping on "
+     "rollingFrictionForce on rollingFrictionForceDamping on"},
+    {"radii_symmetric_damped",
+     "hooke/radii tangential li_chu rolling_friction li_chu rollingDamping on rollingFrictionForce on symmetricCoupling on"},
+    {"radii_symmetric_force_damped",
+     "hooke/radii tangential li_chu rolling_friction li_chu rollingFrictionForce on rollingFrictionForceDamping on symmetricCoupling on"},
+    {"hertz_dashpots",
+     "hertz tangential li_chu rolling_friction li_chu rollingDamping on rollingFrictionForce on rollingFrictionForceDamping on"},
+    {"hertz_symmetric",
+     "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on symmetricCoupling on"},
+    {"hertz_history_damped", "hertz tangential history rolling_friction li_chu rollingDamping on"},
     {"radii_force_alone", "hooke/radii tangential li_chu rollingFrictionForce on"},
     {"radii_symmetric",
      "hooke/radii tangential li_chu rolling_friction li_chu rollingFrictionForce on symmetricCoupling on"},
@@ -62,6 +76,9 @@ inline const std::vector<ModelsOfSphereLoop> kCombinationsOfSphereLoop{
     {"hertz_rolling", "hertz tangential history rolling_friction li_chu"},
     {"hertz_li_chu", "hertz tangential li_chu"},
     {"hertz_torsion", "hertz tangential li_chu rolling_friction li_chu torsionTorque on"},
-    {"hertz_full", "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on limitForce on"}};
+    {"hertz_full", "hertz tangential li_chu rolling_friction li_chu rollingFrictionForce on limitForce on"},
+    {"hertz_symmetric_damped",
+     "hertz tangential li_chu rolling_friction li_chu rollingDamping on rollingFrictionForce on "
+     "rollingFrictionForceDamping on symmetricCoupling on"}};
 
 }  // namespace polargrain::test

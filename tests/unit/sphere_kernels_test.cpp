@@ -34,6 +34,7 @@ PairParameters parameters(NormalLaw normal, double factor) {
   p.rolling_stiffness = 1.0;
   p.rolling_force_friction = 0.1;
   p.rolling_force_stiffness = 0.2;
+  p.rolling_damping = p.rolling_force_damping = 0.05;
   return p;
 }
 
@@ -45,7 +46,7 @@ struct Laws {
   LawSettings settings;
 };
 
-/// damped, absolute, limit, rolling force, its damping (never), symmetric, rolling damped (never), mean radius, torsion
+/// damped, absolute, limit, rolling force, its damping, symmetric, rolling damped, mean radius, torsion
 const std::vector<Laws> kLaws{
     {"history", NormalLaw::hooke_radii, TangentialLaw::history, RollingLaw::off, {}},
     {"history_damped",
@@ -68,6 +69,11 @@ const std::vector<Laws> kLaws{
      TangentialLaw::li_chu,
      RollingLaw::li_chu,
      {true, false, false, true, false, false, false, true, true}},
+    {"all_dashpots",
+     NormalLaw::hooke_radii,
+     TangentialLaw::li_chu,
+     RollingLaw::li_chu,
+     {true, false, false, true, true, false, true, false, true}},
     {"symmetric",
      NormalLaw::hooke_radii,
      TangentialLaw::li_chu,
@@ -78,7 +84,7 @@ const std::vector<Laws> kLaws{
      NormalLaw::hertz,
      TangentialLaw::li_chu,
      RollingLaw::li_chu,
-     {true, false, true, true, false, false, false, false, true}}};
+     {true, false, true, true, true, false, true, false, true}}};
 
 Packing packing() {
   return read_packing("cases/spheres/packing1000.csv");
@@ -87,7 +93,7 @@ Packing packing() {
 /// Two types of grains, which rub differently.
 Spheres spheres_of(const Packing& packing, const Laws& laws) {
   Spheres spheres;
-  DiscCombination& made = spheres.combination;
+  LawCombination& made = spheres.combination;
   made.normal = laws.normal;
   made.tangential = laws.tangential;
   made.rolling = laws.rolling;
@@ -98,6 +104,7 @@ Spheres spheres_of(const Packing& packing, const Laws& laws) {
   for (const Grain& grain : packing.grains) {
     spheres.radii.push_back(grain.radius);
     spheres.masses.push_back(grain.mass);
+    spheres.inertias.push_back(sphere_inertia(grain.mass, grain.radius));
     spheres.types.push_back(grain.id % 3 == 0 ? 1 : 0);
   }
   return spheres;

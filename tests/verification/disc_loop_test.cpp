@@ -104,9 +104,7 @@ TEST_P(DiscLoop, AgreesWithTheEngineOverAThousandSteps) {
     const auto discs = replies(definition, CellLoop::automatic, rotations);
     const auto engine = replies(definition, CellLoop::engine, rotations);
     for (std::size_t k = 0; k < discs.size(); ++k) {
-      // Round-off of 1e-16 grows with every contact that slides or opens a step earlier or later: 1e-9 to 1e-7
-      // of the pressure after 1,000 steps.
-      EXPECT_LT(difference(discs[k], engine[k]), 1e-6) << k;
+      EXPECT_LT(difference(discs[k], engine[k]), 1e-10) << k;
       EXPECT_EQ(discs[k].diagnostics.dem_steps, engine[k].diagnostics.dem_steps);
       EXPECT_NEAR(discs[k].diagnostics.mean_rotation, engine[k].diagnostics.mean_rotation, 1e-9);
       EXPECT_NEAR(discs[k].diagnostics.rotation_spread, engine[k].diagnostics.rotation_spread, 1e-8);

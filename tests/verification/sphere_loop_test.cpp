@@ -148,18 +148,6 @@ TEST(SphereLoopChoice, IsSaidInALineWithTheReason) {
   EXPECT_TRUE(said_at_rest(definition).ends_with("the loop over spheres does not take neigh_modify exclude"));
   definition.control.loop = CellLoop::engine;
   EXPECT_EQ(said_at_rest(definition), "grains are stepped by LIGGGHTS's own loop, as `loop: engine` asks");
-  // Their dashpots let go at the limit of their springs: a jump, behind which two orders of summation part.
-  for (const auto& [style, setting] :
-       {std::pair<std::string, std::string>{"tangential li_chu rolling_friction li_chu rollingDamping on",
-                                            "rollingDamping on"},
-        {"tangential li_chu rollingFrictionForce on rollingFrictionForceDamping on",
-         "rollingFrictionForceDamping on"}}) {
-    const std::string said = said_at_rest(sphere_cell_of("hooke/radii " + style));
-    EXPECT_NE(
-        said.find("by LIGGGHTS's own loop, which is slower: the loop over spheres does not take " + setting),
-        std::string::npos)
-        << said;
-  }
 }
 
 }  // namespace

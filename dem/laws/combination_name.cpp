@@ -4,17 +4,17 @@
 #include <array>
 #include <string_view>
 
-#include "dem/discs/combination.hpp"
+#include "dem/laws/combination.hpp"
 
 namespace polargrain::dem {
 
-int DiscCombination::code() const {
+int LawCombination::code() const {
   const int laws =
       static_cast<int>(normal) + 4 * (static_cast<int>(tangential) + 4 * static_cast<int>(rolling));
   return laws * 4 + (settings.rolling_force ? 2 : 0) + (settings.symmetric ? 1 : 0);
 }
 
-std::string DiscCombination::name() const {
+std::string LawCombination::name() const {
   constexpr std::array<std::string_view, 3> kNormal{"hooke/radii", "hooke/stiffness", "hertz"};
   constexpr std::array<std::string_view, 2> kTangential{"history", "li_chu"};
   constexpr std::array<std::string_view, 3> kRolling{"off", "epsd2", "li_chu"};

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dem/discs/law_settings.hpp"
+#include "dem/laws/law_settings.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -13,7 +13,7 @@ class LAMMPS;
 namespace polargrain::dem {
 
 /// The contacts that a script sets up, where the loops over discs and over spheres can take it.
-struct DiscCombination {
+struct LawCombination {
   NormalLaw normal = NormalLaw::hooke_radii;
   TangentialLaw tangential = TangentialLaw::history;
   RollingLaw rolling = RollingLaw::off;
@@ -26,22 +26,19 @@ struct DiscCombination {
   [[nodiscard]] std::string name() const;  ///< "hooke/radii, history, li_chu"
 };
 
-struct DiscSelection {
-  std::optional<DiscCombination> combination;
+struct LawSelection {
+  std::optional<LawCombination> combination;
   std::string reason;  ///< why the general loop has to run, when there is no combination
 };
 
-/// The contact models of an initialised engine, where the loop over discs knows them.
-DiscSelection disc_models(LAMMPS_NS::LAMMPS& lammps);
-
-/// The same for the passes over spheres, whatever the dimension of the scene.
-DiscSelection sphere_models(LAMMPS_NS::LAMMPS& lammps);
+/// The contact models of an initialised engine, where the loops know them.
+LawSelection known_models(LAMMPS_NS::LAMMPS& lammps);
 
 /// Whether the scene of an initialised engine can be stepped by the loop over discs: a plane scene of one of
 /// the combinations above that does nothing but integrate its grains.
-DiscSelection disc_combination(LAMMPS_NS::LAMMPS& lammps);
+LawSelection disc_combination(LAMMPS_NS::LAMMPS& lammps);
 
 /// The same for the loop over spheres: a scene in space.
-DiscSelection sphere_combination(LAMMPS_NS::LAMMPS& lammps);
+LawSelection sphere_combination(LAMMPS_NS::LAMMPS& lammps);
 
 }  // namespace polargrain::dem

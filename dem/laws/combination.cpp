@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "dem/discs/combination.hpp"
+#include "dem/laws/combination.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +78,7 @@ std::string foreign_scene(const LAMMPS& lammps, int dimension) {
   return foreign_fix(lammps);
 }
 
-void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& made) {
+void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, LawCombination& made) {
   const auto each = [&made](auto set) {
     for (int a = 0; a < made.types; ++a)
       for (int b = 0; b < made.types; ++b)
@@ -122,14 +122,14 @@ void read_normal(LAMMPS& lammps, const SpokenSettings& spoken, DiscCombination& 
 
 using MemberOfPair = double PairParameters::*;
 
-void read_table(LAMMPS& lammps, const char* name, DiscCombination& made, MemberOfPair member) {
+void read_table(LAMMPS& lammps, const char* name, LawCombination& made, MemberOfPair member) {
   const Table table(lammps, name);
   for (int a = 0; a < made.types; ++a)
     for (int b = 0; b < made.types; ++b)
       made.pairs[static_cast<std::size_t>(a) * made.types + b].*member = table.at(a, b);
 }
 
-void read_friction(LAMMPS& lammps, DiscCombination& made) {
+void read_friction(LAMMPS& lammps, LawCombination& made) {
   const LawSettings& on = made.settings;
   if (made.tangential == TangentialLaw::history)
     read_table(lammps, "coeffFrict", made, &PairParameters::friction);
@@ -149,7 +149,7 @@ void read_friction(LAMMPS& lammps, DiscCombination& made) {
   if (on.rolling_damped) read_table(lammps, "rollingDampingRatio", made, &PairParameters::rolling_damping);
 }
 
-LawSettings law_settings(const SpokenSettings& spoken, const DiscCombination& made) {
+LawSettings law_settings(const SpokenSettings& spoken, const LawCombination& made) {
   LawSettings on;
   on.damped = made.normal == NormalLaw::hooke_radii ? spoken.damping : false;
   for (const PairParameters& p : made.pairs)
@@ -167,30 +167,20 @@ LawSettings law_settings(const SpokenSettings& spoken, const DiscCombination& ma
 
 }  // namespace
 
-DiscSelection disc_combination(LAMMPS& lammps) {
+LawSelection disc_combination(LAMMPS& lammps) {
   if (std::string why = foreign_scene(lammps, 2); !why.empty()) return {std::nullopt, std::move(why)};
-  return disc_models(lammps);
+  return known_models(lammps);
 }
 
-DiscSelection sphere_combination(LAMMPS& lammps) {
+LawSelection sphere_combination(LAMMPS& lammps) {
   if (std::string why = foreign_scene(lammps, 3); !why.empty()) return {std::nullopt, std::move(why)};
   // Spheres are counted as in the packing.
   for (int k = 0; k < lammps.atom->nlocal; ++k)
     if (lammps.atom->tag[k] != k + 1) return {std::nullopt, "grains that the engine has reordered"};
-  return sphere_models(lammps);
+  return known_models(lammps);
 }
 
-DiscSelection sphere_models(LAMMPS& lammps) {
-  DiscSelection selection = disc_models(lammps);
-  // At the limits of their springs these dashpots jump, and there the loop differs from LIGGGHTS's by more than rounding.
-  if (selection.combination && selection.combination->settings.rolling_damped)
-    return {std::nullopt, "rollingDamping on"};
-  if (selection.combination && selection.combination->settings.rolling_force_damped)
-    return {std::nullopt, "rollingFrictionForceDamping on"};
-  return selection;
-}
-
-DiscSelection disc_models(LAMMPS& lammps) {
+LawSelection known_models(LAMMPS& lammps) {
   auto* const source = dynamic_cast<SettingsSource*>(pair_implementation(lammps.force->pair));
   if (source == nullptr) return {std::nullopt, "a pair style of its own"};
   const auto hash = static_cast<LAMMPS_NS::PairGran*>(lammps.force->pair)->hashcode();
@@ -204,7 +194,7 @@ DiscSelection disc_models(LAMMPS& lammps) {
   const SpokenSettings& spoken = source->spoken_settings();
   if (spoken.keeps_books()) return {std::nullopt, "a contact model that keeps books of heat or energy"};
 
-  DiscCombination made;
+  LawCombination made;
   made.normal = *normal;
   made.tangential = *tangential;
   made.rolling = *rolling;
