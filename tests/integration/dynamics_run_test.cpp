@@ -196,6 +196,33 @@ TEST_F(DynamicsRun, ADeadLoadPastThePeakGoesOn) {
   EXPECT_LT(*std::ranges::max_element(error), 2e-3);
 }
 
+// The example's slope under a load on its crest that it cannot carry.
+TEST_F(DynamicsRun, ASlopeThatSlidesGoesOn) {
+  std::filesystem::copy(kSource / "cases/slope/slope.msh", scratch_.path());
+  write(
+      scratch_.path() / "slide.yaml",
+      "title: A slope that slides\n"
+      "mesh: {file: slope.msh}\n"
+      "deformation: large\n"
+      "materials: {soil: {model: elastoplastic, E: 5 MPa, nu: 0.3, Gc: 2 MPa, lc: 24 cm, friction_angle: 25 deg,\n"
+      "  dilatancy_angle: 5 deg, cohesion: [[0, 20 kPa], [0.05, 20 kPa], [0.2, 16 kPa]], density: 1835 kg/m3}}\n"
+      "regions: {ground: soil}\n"
+      "boundary:\n  - {on: base, fix: [u1, u2]}\n  - {on: sides, fix: [u1]}\n"
+      "  - {on: crest, pressure: [[0, 0], [0.2, 300 kPa]]}\n"
+      "body:\n  - {unit_weight: 18 kN/m3}\n"
+      "steps: {method: explicit, time: real, tolerance: 1e-6, count: 30, duration: 0.9 s}\n"
+      "monitors: {crest: {on: crest, displacement: u2}, settlement: -crest / 5 m}\n"
+      "output: {every: 1000}\n");
+  const Outcome outcome = run("slide");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  const std::vector<double> settlement = column("slide", "settlement");
+  const std::vector<double> error = column("slide", "energy_error");
+  std::cout << "[figure] slid to " << settlement.back() << " of the height, largest energy error "
+            << *std::ranges::max_element(error) << '\n';
+  EXPECT_GT(settlement.back(), 0.25);
+  EXPECT_LT(*std::ranges::max_element(error), 2e-3);
+}
+
 // A mistake in the file is found before anything runs.
 TEST_F(DynamicsRun, MistakesAreFaults) {
   const std::string law = "model: elastic, E: 100 MPa, nu: 0.25, Gc: 40 MPa, lc: 5 mm";

@@ -8,7 +8,7 @@ polargrain_tests(unit polargrain_fem
   unit/fem_multilevel_test.cpp
   unit/fem_explicit_test.cpp
   unit/fem_automatic_test.cpp
-  unit/fem_dynamics_test.cpp
+  unit/fem_real_time_test.cpp
   unit/fem_solver_test.cpp
   unit/nodal_field_test.cpp
   unit/spread_slip_test.cpp

@@ -7,51 +7,14 @@
 #include <iostream>
 
 #include "common/memory_archive.hpp"
-#include "fem/material/elastic.hpp"
-#include "fem/material/local_material.hpp"
-#include "fem/mesh/rectangle.hpp"
 #include "fem/solver/explicit_pace.hpp"
 #include "fem/solver/explicit_rate.hpp"
 #include "fem/solver/nodal_masses.hpp"
 #include "fem/solver/quasi_static.hpp"
-#include "fem/solver/solver.hpp"
+#include "tests/support/explicit_bodies.hpp"
 
-using namespace polargrain;
-using namespace polargrain::fem;
-
+namespace polargrain::testing::explicit_bodies {
 namespace {
-
-constexpr double kPressure = 100e3;
-
-ElasticParameters<2> sand_of_explicit() {
-  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
-  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -kPressure;
-  return parameters;
-}
-
-std::shared_ptr<Material<2>> elastic() {
-  return std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(sand_of_explicit()));
-}
-
-/// Compression between rough plates, so that the stress is not uniform.
-Problem<2> biaxial(Deformation deformation = Deformation::small, double shortening = 0.0008) {
-  Problem<2> problem;
-  problem.mesh = rectangle({{0.04, 0.08}, {2, 4}});
-  problem.deformation = deformation;
-  problem.materials["all"] = elastic();
-  const TimeTable zero = TimeTable::constant(0.0);
-  problem.prescribed = {{"bottom", Dof::u1, zero, {}},
-                        {"bottom", Dof::u2, zero, {}},
-                        {"top", Dof::u1, zero, {}},
-                        {"top", Dof::u2, TimeTable::ramp(-shortening), {}}};
-  problem.boundary_loads = {{.on = "left", .pressure = TimeTable::constant(kPressure)},
-                            {.on = "right", .pressure = TimeTable::constant(kPressure)}};
-  return problem;
-}
-
-double force_on_top(const Solver<2>& solver) {
-  return solver.reaction("top")(1);
-}
 
 TEST(explicit_pace, comes_to_its_speed_evenly_and_ends_where_it_should) {
   const ExplicitPace pace(2.0, 3.0, 100, 20, 0);
@@ -165,28 +128,6 @@ TEST(nodal_masses, make_steps_of_one_stable_and_not_much_slower) {
             .maxCoeff();
     EXPECT_LE(largest, 4.0 * 0.36 * (1.0 + 1e-12)) << type;
     EXPECT_GE(largest, 4.0 * 0.36 * 0.5) << type;
-  }
-}
-
-// The mean over a row of steps is compared: waves come and go.
-TEST(explicit_steps, agree_with_newton_where_they_are_slow) {
-  for (const Deformation deformation : {Deformation::small, Deformation::large}) {
-    Solver<2> newton(biaxial(deformation), {});
-    ASSERT_TRUE(newton.equilibrate().converged);
-    ASSERT_TRUE(newton.advance(1.0).converged);
-    for (const int steps : {500, 4000}) {
-      Solver<2> slow(biaxial(deformation), {});
-      ASSERT_TRUE(slow.begin_explicit().converged);
-      const StepReport report = slow.advance_explicit(1.0, steps);
-      ASSERT_TRUE(report.converged) << report.message;
-      EXPECT_EQ(report.time, 1.0);
-      const double added = force_on_top(newton) + kPressure * 0.04;
-      const double error = std::abs((force_on_top(slow) - force_on_top(newton)) / added);
-      EXPECT_LT(error, steps == 500 ? 0.03 : 0.005);
-      // What the supports and the loads have done is in the stresses, or moves.
-      const double work = slow.state().internal_work;
-      EXPECT_NEAR(slow.state().external_work, work, 0.01 * std::abs(work) * (steps == 500 ? 3.0 : 1.0));
-    }
   }
 }
 
@@ -377,61 +318,6 @@ TEST(explicit_steps, go_on_from_their_begin_to_the_same_bits) {
   EXPECT_EQ(again.state().velocity, through.state().velocity);
 }
 
-// Elements that are squeezed swing faster: steps of 0.6 of the critical one at first are critical at 0.6 of the height, stiffness
-// alike, and are shortened before. Newton's method, in as many rows, has the same force; behind 43 % the two part.
-TEST(explicit_steps, stay_stable_where_elements_are_squeezed) {
-  constexpr int kRows = 20;
-  Solver<2> newton(biaxial(Deformation::large, 0.034), {});
-  ASSERT_TRUE(newton.equilibrate().converged);
-  Solver<2> solver(biaxial(Deformation::large, 0.034), {});
-  ASSERT_TRUE(solver.begin_explicit().converged);
-  int first = 0;
-  int last = 0;
-  for (int row = 1; row <= kRows; ++row) {
-    ASSERT_TRUE(newton.advance(static_cast<double>(row) / kRows).converged);
-    const StepReport report = solver.advance_explicit(static_cast<double>(row) / kRows, 400, {});
-    ASSERT_TRUE(report.converged) << report.message;
-    EXPECT_NEAR(force_on_top(solver) / force_on_top(newton), 1.0, 0.02) << row;
-    if (row == 2) first = report.explicit_steps;
-    last = report.explicit_steps;
-  }
-  std::cout << "[figure] explicit steps of a row: " << first << ", then " << last << '\n';
-  EXPECT_GT(last, 1.25 * first);
-}
-
-// Turned by 28 degrees under pressures that follow it, and pressed on its top: the work of all forces is that of its stresses.
-// Micro-rotations turn with the body; damped in space, they would hold it back.
-TEST(explicit_steps, turn_a_body_without_drag) {
-  const auto turned = [] {
-    Problem<2> problem;
-    problem.mesh = rectangle({{1.0, 1.0}, {2, 2}});
-    problem.deformation = Deformation::large;
-    problem.materials["all"] = elastic();
-    problem.prescribed = {{"bottom_left", Dof::u1, TimeTable::constant(0.0), {}},
-                          {"bottom_left", Dof::u2, TimeTable::constant(0.0), {}},
-                          {"bottom_right", Dof::u1, TimeTable::ramp(-0.117), {}},
-                          {"bottom_right", Dof::u2, TimeTable::ramp(0.46947), {}}};
-    for (const char* const side : {"left", "right", "bottom"})
-      problem.boundary_loads.push_back({.on = side, .pressure = TimeTable::constant(kPressure)});
-    problem.boundary_loads.push_back(
-        {.on = "top", .pressure = TimeTable({{0.0, kPressure}, {1.0, 2.0 * kPressure}})});
-    return problem;
-  };
-  Solver<2> balanced(turned(), {});
-  ASSERT_TRUE(balanced.equilibrate().converged);
-  for (int step = 1; step <= 20; ++step) ASSERT_TRUE(balanced.advance(step / 20.0).converged);
-  Solver<2> solver(turned(), {});
-  ASSERT_TRUE(solver.begin_explicit().converged);
-  for (int step = 1; step <= 20; ++step) ASSERT_TRUE(solver.advance_explicit(step / 20.0, 800, {}).converged);
-  const double work = balanced.state().external_work;
-  std::cout << "[figure] work of a body that is turned in explicit steps over that in balance: external "
-            << solver.state().external_work / work << ", internal " << solver.state().internal_work / work
-            << '\n';
-  // The inertia of the chosen masses is left.
-  EXPECT_NEAR(solver.state().external_work / work, 1.0, 0.1);
-  EXPECT_NEAR(solver.state().internal_work / work, 1.0, 0.1);
-}
-
 // A rotation that is given, or a moment, meets no force of a support in the first step. Newton's method is exact.
 TEST(explicit_steps, begin_where_no_force_reacts) {
   for (const bool is_given : {true, false}) {
@@ -469,3 +355,4 @@ TEST(explicit_steps, begin_where_no_force_reacts) {
 }
 
 }  // namespace
+}  // namespace polargrain::testing::explicit_bodies

@@ -2,6 +2,9 @@
 polargrain_tests(verification polargrain_fem
   verification/fem_start_from_test.cpp
   verification/fem_stages_test.cpp
+  verification/fem_dynamics_test.cpp
+  verification/nodal_field_order_test.cpp
+  verification/explicit_bodies_test.cpp
   verification/fem_slab_test.cpp
   verification/fem_space_test.cpp
   verification/fem_one_point_test.cpp

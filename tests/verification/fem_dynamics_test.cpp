@@ -8,91 +8,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "common/memory_archive.hpp"
-#include "fem/material/elastic.hpp"
-#include "fem/material/local_material.hpp"
-#include "fem/mesh/rectangle.hpp"
-#include "fem/solver/base_motion.hpp"
-#include "fem/solver/solver.hpp"
+#include "tests/support/bodies_in_real_time.hpp"
 
-using namespace polargrain;
-using namespace polargrain::fem;
-
+namespace polargrain::testing::real_time {
 namespace {
-
-constexpr double kDensity = 2000.0;
-/// Of the energy: rows have steps of slightly different duration, at each change of which the balance has an error of their square.
-constexpr double kEnergy = 1e-4;
-const TimeTable kZeroOfDynamics = TimeTable::constant(0.0);
-
-ElasticParameters<2> soil(double pressure = 0.0) {
-  ElasticParameters<2> parameters{40e6, 0.3, 10e6, 3e-3, Vector7::Zero()};
-  for (const int i : {k11, k22, k33}) parameters.initial_stress(i) = -pressure;
-  return parameters;
-}
-
-double speed_along() {
-  return std::sqrt(elastic_stiffness(soil())(k11, k11) / kDensity);
-}
-double speed_across() {
-  return std::sqrt(40e6 / 2.6 / kDensity);
-}
-
-Problem<2> body(const RectangleSpecification& shape, const std::string& element = "Q8R",
-                Continuum continuum = Continuum::cauchy, double pressure = 0.0) {
-  Problem<2> problem;
-  problem.mesh = rectangle(shape, element);
-  problem.continuum = continuum;
-  problem.materials["all"] = std::make_shared<LocalMaterial<ElasticLaw<2>>>(ElasticLaw<2>(soil(pressure)));
-  problem.densities["all"] = kDensity;
-  return problem;
-}
-
-/// A bar, held sideways, whose left end is brought to `speed` within `rise` seconds.
-Problem<2> bar(double speed, double rise, const std::string& element = "Q8R") {
-  Problem<2> problem = body({{10.0, 0.2}, {50, 1}}, element);
-  const TimeTable pushed =
-      TimeTable::of_accelerations({{0.0, 0.0}, {0.5 * rise, 2.0 * speed / rise}, {rise, 0.0}});
-  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}},
-                        {"top", Dof::u2, kZeroOfDynamics, {}},
-                        {"left", Dof::u1, pushed, {}},
-                        {"right", Dof::u1, kZeroOfDynamics, {}}};
-  return problem;
-}
-
-/// A column that shears: its sides move alike.
-Problem<2> column(int elements, Continuum continuum = Continuum::cauchy) {
-  Problem<2> problem = body({{1.0, 10.0}, {1, elements}}, "Q8R", continuum);
-  problem.ties = {{"right", "left"}};
-  problem.prescribed = {{"left", Dof::u2, kZeroOfDynamics, {}}, {"right", Dof::u2, kZeroOfDynamics, {}}};
-  return problem;
-}
-
-/// Where the compression falls to half of `height` in front of the wave, from its points.
-double front_of(const Solver<2>& solver, double height) {
-  std::vector<std::pair<double, double>> strains;
-  for (std::size_t i = 0; i < solver.points(); ++i)
-    strains.emplace_back(solver.position_of_point(i).x(), -solver.state().strain[i](k11));
-  std::ranges::sort(strains);
-  for (std::size_t i = strains.size() - 1; i > 0; --i) {
-    const auto& [x, strain] = strains[i - 1];
-    if (strain < 0.5 * height) continue;
-    const auto& [next_x, next] = strains[i];
-    return x + (next_x - x) * (strain - 0.5 * height) / (strain - next);
-  }
-  return 0.0;
-}
-
-// An accelerated body: by hand, 2 m/s2 for 1 s, then down to nothing within 1 s.
-TEST(time_table, displaces_what_is_accelerated) {
-  const TimeTable table = TimeTable::of_accelerations({{0.0, 2.0}, {1.0, 2.0}, {2.0, 0.0}});
-  EXPECT_EQ(table.at(-1.0), 0.0);
-  EXPECT_NEAR(table.at(1.0), 1.0, 1e-15);
-  EXPECT_NEAR(table.slope(1.0), 2.0, 1e-15);
-  EXPECT_NEAR(table.at(2.0), 1.0 + 2.0 + 1.0 - 1.0 / 3.0, 1e-14);
-  EXPECT_NEAR(table.slope(3.0), 3.0, 1e-14);
-  EXPECT_NEAR(table.at(4.0) - table.at(3.0), 3.0, 1e-14);
-}
 
 // A wave runs at sqrt(M / rho), carries rho c v, and comes back from a wall with twice that.
 TEST(dynamics, a_wave_runs_through_a_bar_at_its_speed) {
@@ -240,46 +159,6 @@ TEST(dynamics, quiet_boundaries_carry_what_rests_on_them) {
   EXPECT_NEAR(solver.mean_displacement("right")(0) / pushed, 0.0, 1e-6);
 }
 
-// A load that a body bears from the start does work then, and none behind: what is left of its energies is rounding.
-TEST(dynamics, a_body_at_rest_has_no_error_of_energy) {
-  Problem<2> problem = body({{1.0, 1.0}, {1, 4}});
-  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}},
-                        {"left", Dof::u1, kZeroOfDynamics, {}},
-                        {"right", Dof::u1, kZeroOfDynamics, {}}};
-  problem.boundary_loads = {{.on = "top", .pressure = TimeTable::constant(100e3)}};
-  Solver<2> solver(problem, {});
-  ASSERT_TRUE(solver.begin_real_time().converged);
-  const double work = solver.state().external_work;
-  EXPECT_GT(work, 1.0);
-  for (int row = 1; row <= 5; ++row) {
-    const StepReport report = solver.advance_real_time(0.01 * row);
-    ASSERT_TRUE(report.converged);
-    EXPECT_LT(std::abs(report.energies.external), 1e-10 * work);
-    EXPECT_LT(report.energies.error(), kEnergy);
-  }
-}
-
-// Energies above rounding count among themselves, however much work the start took.
-TEST(dynamics, an_energy_that_is_missing_is_an_error) {
-  const Energies wave{.kinetic = 0.4, .internal = 0.4, .external = 1.0, .at_start = 1e6};
-  EXPECT_NEAR(wave.error(), 0.2, 1e-12);
-}
-
-// At a corner the support of the other boundary holds: the base is shaken between quiet sides, and keeps its height.
-TEST(dynamics, quiet_boundaries_leave_the_supports_of_their_neighbours) {
-  Problem<2> problem = body({{1.0, 1.0}, {4, 4}});
-  const TimeTable shaken = TimeTable::of_accelerations({{0.0, 1.0}, {1.0, 1.0}});
-  problem.prescribed = {{"bottom", Dof::u2, kZeroOfDynamics, {}}, {"bottom", Dof::u1, shaken, {}}};
-  problem.quiet = {"left", "right"};
-  Solver<2> solver(problem, {});
-  ASSERT_TRUE(solver.begin_real_time().converged);
-  ASSERT_TRUE(solver.advance_real_time(1.0).converged);
-  const std::vector<int> corner = solver.problem().mesh.nodes_on("bottom_left");
-  ASSERT_EQ(corner.size(), 1U);
-  EXPECT_EQ(solver.state().displacement(entry_of<2>(corner.front(), Dof::u2)), 0.0);
-  EXPECT_NEAR(solver.state().displacement(entry_of<2>(corner.front(), Dof::u1)), 0.5, 1e-12);
-}
-
 // A block is carried by its base at 1 m/s2: the base pushes with all of its mass, that of its own nodes too.
 TEST(dynamics, a_base_carries_the_mass_of_its_own_nodes) {
   for (const char* const element : {"Q4", "Q8R", "T6"}) {
@@ -369,42 +248,6 @@ TEST(dynamics, a_body_that_is_carried_along_evenly_is_not_damped) {
   EXPECT_LT(report.energies.error(), kEnergy);
 }
 
-// Where one place stands and another is accelerated along the same axis, there is no base.
-TEST(base_motion, is_that_of_all_supports_along_an_axis) {
-  Problem<2> problem = bar(0.01, 0.01);
-  const BaseAlong<2> two = base_along(problem, 0, Dof::u1);
-  ASSERT_NE(two.item, nullptr);
-  ASSERT_NE(two.other, nullptr);
-  EXPECT_EQ(two.item->on, "left");
-  EXPECT_EQ(two.other->on, "right");
-  EXPECT_EQ(base_along(problem, 0, Dof::u2).item, nullptr);
-  problem.quiet = {"right"};
-  EXPECT_EQ(base_along(problem, 0, Dof::u1).other, nullptr);
-  problem.quiet.clear();
-  problem.prescribed.back().value = problem.prescribed[2].value;
-  EXPECT_EQ(base_along(problem, 0, Dof::u1).other, nullptr);
-  const BaseMotion<2> base(problem, Constraints<2>(problem), 0);
-  const double speed = problem.prescribed[2].value.slope(0.004);
-  EXPECT_GT(speed, 0.0);
-  EXPECT_EQ(base.velocity(0.004).maxCoeff(), speed);
-  EXPECT_EQ(base.velocity(0.004).minCoeff(), 0.0);  // across
-}
-
-// A movement is a base as an acceleration is, where nothing else along the axis stands or moves otherwise.
-TEST(base_motion, is_that_of_a_movement_too) {
-  Problem<2> problem = bar(0.01, 0.01);
-  problem.prescribed[2].value = TimeTable({{0.0, 0.0}, {0.01, 1e-4}});
-  EXPECT_EQ(base_along(problem, 0, Dof::u1).item, nullptr);  // it pushes against the other end, which stands
-  EXPECT_EQ(base_along(problem, 0, Dof::u1).other, nullptr);
-  EXPECT_EQ(BaseMotion<2>(problem, Constraints<2>(problem), 0).velocity(0.004).maxCoeff(), 0.0);
-  problem.prescribed.back().value = problem.prescribed[2].value;
-  ASSERT_NE(base_along(problem, 0, Dof::u1).item, nullptr);
-  EXPECT_EQ(base_along(problem, 0, Dof::u1).other, nullptr);
-  const BaseMotion<2> base(problem, Constraints<2>(problem), 0);
-  EXPECT_DOUBLE_EQ(base.velocity(0.004).maxCoeff(), 1e-4 / 0.01);
-  EXPECT_EQ(base.velocity(0.02).maxCoeff(), 0.0);  // it stands behind its table
-}
-
 // A base may be given by its accelerations or by its displacements. Straight lines over h lie up to e = h^2 a / 8 from the curve
 // of an acceleration of a. At the top each pass of a wave brings twice that, nine passes within 2 s, and the dampers, which move
 // with the base, kDamping * 2 s = 6 times: 24 e at most. Damped against the mesh at rest, the top is 4 mm elsewhere.
@@ -455,43 +298,5 @@ TEST(dynamics, energy_is_accounted_for) {
   }
 }
 
-TEST(dynamics, goes_on_from_an_archive_to_the_same_bits) {
-  const auto problem = [] {
-    Problem<2> made = bar(0.01, 0.01);
-    made.quiet = {"right"};
-    return made;
-  };
-  Solver<2> through(problem(), {});
-  ASSERT_TRUE(through.begin_real_time().converged);
-  for (const double broken : {0.0, 0.03}) {
-    Solver<2> first(problem(), {});
-    ASSERT_TRUE(first.begin_real_time().converged);
-    if (broken > 0.0) {
-      ASSERT_TRUE(first.advance_real_time(broken).converged);
-    }
-    MemoryArchive archive;
-    first.save(archive);
-    const StepReport expected = first.advance_real_time(0.08);
-    Solver<2> again(problem(), {});
-    again.restore(archive);
-    const StepReport report = again.advance_real_time(0.08);
-    EXPECT_EQ(again.state().displacement, first.state().displacement);
-    EXPECT_EQ(again.state().velocity, first.state().velocity);
-    EXPECT_EQ(report.energies.absorbed, expected.energies.absorbed);
-    EXPECT_EQ(report.energies.external, expected.energies.external);
-  }
-}
-
-// Steps of 1 s take the values at their ends. Triangles: half as long as a step, with their peak at its end, they count double;
-// within a step, nothing is seen of them; of ten steps, the three kinks miss 1/8 of a step's change of slope.
-TEST(TimeTables, TellWhatStepsMissOfThem) {
-  EXPECT_NEAR(TimeTable({{4.75, 0.0}, {5.0, 1.0}, {5.25, 0.0}}).share_missed_by_steps(1.0, 9.0), 3.0, 1e-12);
-  EXPECT_NEAR(TimeTable({{4.25, 0.0}, {4.5, 1.0}, {4.75, 0.0}}).share_missed_by_steps(1.0, 9.0), 1.0, 1e-12);
-  EXPECT_NEAR(TimeTable({{0.0, 1.0}, {0.5, 0.0}}).share_missed_by_steps(1.0, 9.0), 1.0, 1e-12);
-  EXPECT_LT(TimeTable({{3.3, 0.0}, {8.3, 1.0}, {13.3, 0.0}}).share_missed_by_steps(1.0, 20.0), 0.03);
-  EXPECT_LT(TimeTable({{0.0, 0.0}, {1e-6, 1.0}}).share_missed_by_steps(1.0, 20.0), 0.03);  // a sudden load
-  EXPECT_EQ(TimeTable::constant(2.0).share_missed_by_steps(1.0, 9.0), 0.0);
-  EXPECT_EQ(TimeTable::ramp(2.0).share_missed_by_steps(1.0, 9.0), 0.0);
-}
-
 }  // namespace
+}  // namespace polargrain::testing::real_time
