@@ -82,7 +82,11 @@ std::optional<double> measured_spread(const MaterialOfGrains& material, const Pa
 }  // namespace
 
 bool spread_is_of_grains(const Entry& spread) {
-  return spread.text == kMeasured || spread.text.ends_with(kMedian);
+  if (spread.text == kMeasured || spread.text.ends_with(kMedian)) return true;
+  // 'd5' is meant for d50, and is told so.
+  const std::size_t unit = spread.text.find_first_not_of("0123456789.+- ");
+  return unit != std::string::npos && spread.text[unit] == 'd' &&
+         !parse_quantity(spread.text, Dimension::length);
 }
 
 double spread_of_grains(const Entry& spread, const Entry& document, CaseParts& parts) {
@@ -91,7 +95,8 @@ double spread_of_grains(const Entry& spread, const Entry& document, CaseParts& p
   };
   std::optional<double> medians;
   if (spread.text != kMeasured) {
-    medians = parse_quantity(spread.text.substr(0, spread.text.size() - kMedian.size()), Dimension::number);
+    if (spread.text.ends_with(kMedian))
+      medians = parse_quantity(spread.text.substr(0, spread.text.size() - kMedian.size()), Dimension::number);
     if (!medians || *medians <= 0.0) {
       fault("expected a length, 'measured', or so many median diameters of the grains, such as '5 d50'");
       return kSomeLength;

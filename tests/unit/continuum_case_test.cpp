@@ -84,6 +84,8 @@ TEST_F(ContinuumCase, faults_say_where_slips_are_not_spread) {
   EXPECT_NE(fault("spread: 50 mm", "spread: d50")
                 .find("2: continuum: spread: d50: expected a length, 'measured', or"),
             std::string::npos);
+  EXPECT_NE(fault("spread: 50 mm", "spread: 5.4 d5").find("median diameters of the grains, such as '5 d50'"),
+            std::string::npos);
   EXPECT_NE(fault("spread: 50 mm", "hold: top").find("2: continuum: hold: without 'spread'"),
             std::string::npos);
   EXPECT_NE(fault("spread: 50 mm", "spread: 50 mm, hold: [top, botom]")
