@@ -121,7 +121,7 @@ and over 10 increments. "reference" is that run at half its care; "yardstick" is
 - Answers from one state scatter by 3e-5 to 5e-5 of the pressure. The estimate of noise is 2.5e-4.
 
 Nanoseconds a grain and step, over a bare loop of the same physics:""", "step_bench.txt", [],
-     ["  ", "bare loop with", "discs: full: ", "engine: full: ", "liggghts: hooke/stiffness history  ", "lammps: hooke/stiffness history  "]),
+     ["  ", "bare loop", "discs: hooke/radii history ", "discs: hooke/radii li_chu", "discs: full: ", "engine: full: ", "liggghts: hooke/stiffness history  ", "lammps: hooke/stiffness history  "]),
     ("", "The condensed tangent, milliseconds.", "tangent_bench.csv", [], ["by fronts, SSE2", "UMFPACK", "plain twin"]),
     ("A cell of spheres", """1,000 spheres of `cases/spheres`, five increments of 1e-3 of triaxial compression at constant volume, one packing. "+tangent" is the
 additional time of the condensed tangent. "off" is the deviator against a slow run.""", "sphere_bench.txt", [],
