@@ -133,7 +133,7 @@ A sphere and step. The divider takes a quarter of the AVX-512 pass: eight lanes 
     ("Packings", """Processor seconds to rest under 100 kPa, radii 3 to 7 mm. Both loops make the same void ratio: ten packings of 300 spheres differ by
 -0.007 +- 0.013 with friction 0.5, 0.004 +- 0.006 without.""", "pack_bench.csv",
      ["packing", "grains", "seconds", "DEM steps"], ["discs"]),
-    ("A coupled run", """`cases/biaxial` (200 cells, 23 steps, 19,244 evaluations) takes 16 s of processor time on that EPYC, 36 s with `condensed`, `./bootstrap demo` 46 s. `spheres_512` takes 17 minutes with `informed`, 16 with `cell` in explicit steps.
+    ("A coupled run", """`cases/biaxial` (200 cells, 23 steps, 19,244 evaluations) takes 16 s of processor time on that EPYC, 36 s with `condensed`, `./bootstrap demo` 46 s. `spheres_512` takes 17 minutes with `informed`, 14 with `cell` in explicit steps.
 
 Fewer tangents: `tangent: secant` ([when](howto/method.md#which-tangent)) beside `condensed`, the same packings with one worker; means with 95 % intervals.""", "tangents.csv", [], []),
     ("The coordinator", """10,000 cells with states of 55 kB and simulated workers that answer at once. "Own" is processor time of the coordinator. It saturates where that is

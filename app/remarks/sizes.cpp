@@ -9,6 +9,7 @@
 #include "app/remarks/base_motions.hpp"
 #include "app/remarks/in_units.hpp"
 #include "app/remarks/lengths.hpp"
+#include "coupler/case/parts.hpp"
 
 namespace polargrain::app {
 namespace {
@@ -59,6 +60,14 @@ std::string of_motions(const Scene& scene) {
   return text;
 }
 
+/// DEM steps of a box that stays with its worker through all explicit steps; 0 where boxes are asked.
+double dem_steps_of_resident(const Scene& scene) {
+  if (!scene.the_case().is_explicit() || scene.the_case().effort > 0) return 0.0;
+  double steps = 0.0;
+  for (const coupler::StepTarget& target : scene.the_case().plan) steps += target.explicit_steps;
+  return steps * coupler::dem_steps_of(scene.document());
+}
+
 /// Steps in real time of 0.25 h / c, and DEM steps of 0.36 d / c: measured on elements with middle nodes and on discs.
 std::string of_real_time(const Scene& scene) {
   constexpr double kStep = 0.25;
@@ -92,26 +101,40 @@ std::string of_real_time(const Scene& scene) {
 
 }  // namespace
 
+std::string Expectation::work() const {
+  std::string words;
+  if (evaluations > 0.0) words = fmt::format("{:.2g} evaluations of cells at most", evaluations);
+  if (dem_steps_of_box > 0.0)
+    words += fmt::format("{}{:.2g} DEM steps of each box", words.empty() ? "" : ", ", dem_steps_of_box);
+  return words;
+}
+
 Expectation expectation_of(const Scene& scene) {
   Expectation sum;
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell == nullptr) continue;
     const auto points = static_cast<double>(scene.points_of(region));
     const coupler::Entry* const model = scene.find({"materials", region.material, "model"});
+    const bool spheres = region.cell->packing.dimension == 3;
+    const double of_step = spheres ? kSecondsOfSphere : kSecondsOfDisc;
+    const auto grains = static_cast<double>(region.cell->packing.grains.size());
+    const double resident = dem_steps_of_resident(scene);
+    if (resident > 0.0 && model != nullptr && model->text == "cell") {
+      sum.dem_steps_of_box = resident;
+      sum.core_seconds += points * resident * grains * of_step;
+      continue;
+    }
     const bool informed = model != nullptr && model->text == "informed";
     const double evaluations = points * scene.the_case().steps() * (informed ? 1.0 : kIterations);
     const CellControl& control = region.cell->control;
     const double dem_steps =
         std::max<double>(control.least_steps, scene.strain_of_run() / std::max(1, scene.the_case().steps()) *
                                                   kStepsOfStrain * kDefaultRate / control.inertial_number);
-    const bool spheres = region.cell->packing.dimension == 3;
     const bool has_tangents = model == nullptr || model->text != "cell" ||
                               (!scene.the_case().is_explicit() && control.tangent != CellTangent::secant);
     const double tangent = spheres ? kSecondsOfTangentOfSphere : kSecondsOfTangentOfDisc;
-    const double of_grain =
-        dem_steps * (spheres ? kSecondsOfSphere : kSecondsOfDisc) + (has_tangents ? tangent : 0.0);
     sum.evaluations += evaluations;
-    sum.core_seconds += evaluations * of_grain * static_cast<double>(region.cell->packing.grains.size());
+    sum.core_seconds += evaluations * grains * (dem_steps * of_step + (has_tangents ? tangent : 0.0));
   }
   return sum;
 }
@@ -131,9 +154,8 @@ std::string sizes_text(const Scene& scene) {
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
   if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);
-  if (expected.evaluations > 0.0)
-    text += fmt::format("to be expected: some {:.2g} evaluations of cells at most, {} of one core\n",
-                        expected.evaluations, seconds(expected.core_seconds));
+  if (const std::string work = expected.work(); !work.empty())
+    text += fmt::format("to be expected: some {}, {} of one core\n", work, seconds(expected.core_seconds));
   if (scene.dimension() == 3) {
     std::size_t points = 0;
     std::size_t cells = 0;

@@ -8,8 +8,11 @@ namespace polargrain::app {
 
 /// The expected cost of a run, to a factor of three or so.
 struct Expectation {
-  double evaluations = 0.0;  ///< of cells
+  double evaluations = 0.0;       ///< of cells
+  double dem_steps_of_box = 0.0;  ///< of boxes that stay with their workers in explicit steps
   double core_seconds = 0.0;
+
+  [[nodiscard]] std::string work() const;  ///< in words; empty where there is none
 };
 
 /// From the points, steps and grains of a case: as long as cells of cases/biaxial take (docs/performance.md).

@@ -53,7 +53,7 @@ void put(const std::filesystem::path& at, const std::string& text) {
 TEST(Remarks, TheDemoHasNoneAndItsTimeIsTold) {
   const Outcome told = run_in(kSource, kProgram + " check cases/toyoura/case.yaml --strict");
   EXPECT_EQ(told.status, 0) << told.out << told.errors;
-  const std::string words = "evaluations of cells at most, ";
+  const std::string words = "DEM steps of each box, ";
   const std::size_t place = told.out.find(words);
   ASSERT_NE(place, std::string::npos) << told.out;
   const double seconds = std::stod(told.out.substr(place + words.size()));

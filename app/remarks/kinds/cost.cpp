@@ -13,9 +13,8 @@ void cost(const Scene& scene, Remarks& remarks) {
   if (expected.core_seconds <= kLong) return;
   remarks.push_back(
       {Rank::costly, expected.core_seconds / kLong,
-       scene.place({"mesh"}).fault(
-           fmt::format("mesh: {:.2g} evaluations of cells are expected, {:.0f} days of one core",
-                       expected.evaluations, expected.core_seconds / 86400.0)),
+       scene.place({"mesh"}).fault(fmt::format("mesh: {} are expected, {:.0f} days of one core",
+                                               expected.work(), expected.core_seconds / 86400.0)),
        "'model: informed' asks each cell once a step, 'adaptive' only some of them; or fewer points, steps and grains"});
 }
 
