@@ -12,7 +12,7 @@ struct Expectation {
   double dem_steps_of_box = 0.0;  ///< of boxes that stay with their workers in explicit steps
   double core_seconds = 0.0;
 
-  [[nodiscard]] std::string work() const;  ///< in words; empty where there is none
+  [[nodiscard]] std::string work() const;  ///< in words; without cells it is empty
 };
 
 /// From the points, steps and grains of a case: as long as cells of cases/biaxial take (docs/performance.md).
