@@ -62,9 +62,10 @@ std::string of_motions(const Scene& scene) {
 
 /// DEM steps of a box that stays with its worker through all explicit steps; 0 where boxes are asked.
 double dem_steps_of_resident(const Scene& scene) {
-  if (!scene.the_case().is_explicit() || scene.the_case().effort > 0) return 0.0;
+  const coupler::Case& the_case = scene.the_case();
+  if (!the_case.is_explicit() || the_case.is_automatic() || the_case.real_time) return 0.0;
   double steps = 0.0;
-  for (const coupler::StepTarget& target : scene.the_case().plan) steps += target.explicit_steps;
+  for (const coupler::StepTarget& target : the_case.plan) steps += target.explicit_steps;
   return steps * coupler::dem_steps_of(scene.document());
 }
 
@@ -103,7 +104,7 @@ std::string of_real_time(const Scene& scene) {
 
 std::string Expectation::work() const {
   std::string words;
-  if (evaluations > 0.0) words = fmt::format("{:.2g} evaluations of cells at most", evaluations);
+  if (evaluations > 0.0) words = fmt::format("{:.2g} evaluations of cells", evaluations);
   if (dem_steps_of_box > 0.0)
     words += fmt::format("{}{:.2g} DEM steps of each box", words.empty() ? "" : ", ", dem_steps_of_box);
   return words;
@@ -155,7 +156,8 @@ std::string sizes_text(const Scene& scene) {
   if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);
   if (const std::string work = expected.work(); !work.empty())
-    text += fmt::format("to be expected: some {}, {} of one core\n", work, seconds(expected.core_seconds));
+    text += fmt::format("to be expected: some {}{}, {} of one core\n", work,
+                        expected.evaluations > 0.0 ? " at most" : "", seconds(expected.core_seconds));
   if (scene.dimension() == 3) {
     std::size_t points = 0;
     std::size_t cells = 0;

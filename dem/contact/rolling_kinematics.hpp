@@ -95,10 +95,10 @@ inline bool limit_length(double* vector, double limit) {
   return true;
 }
 
-/// Whether the force of a spring stands at its limit.
+/// Whether the force of a spring stands at its limit; one without a limit, which is zero, does.
 inline bool stands_at(const double* force, double limit) {
   const double least = kStandingAtLimit * limit;
-  return dot(force, force) > least * least;
+  return dot(force, force) >= least * least;
 }
 
 }  // namespace polargrain::dem

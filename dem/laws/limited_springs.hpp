@@ -45,15 +45,15 @@ POLARGRAIN_INLINE auto cut(Vector<Number>& force, Number limit) {
   return size > limit;
 }
 
-/// Whether a force that has been cut stands at its limit.
+/// Whether a force that has been cut stands at its limit; one without a limit, which is zero, does.
 template <typename Number>
 POLARGRAIN_INLINE auto stands_at(Number force, Number limit) {
-  return magnitude(force) > kStandingAtLimit * limit;
+  return magnitude(force) >= kStandingAtLimit * limit;
 }
 template <typename Number>
 POLARGRAIN_INLINE auto stands_at(const Vector<Number>& force, Number limit) {
   const Number least = kStandingAtLimit * limit;
-  return dot(force, force) > least * least;
+  return dot(force, force) >= least * least;
 }
 
 /// The spring that has a force: its own where the force is cut, else `spring`. Quotients along a line are rarely asked for.

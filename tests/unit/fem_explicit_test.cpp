@@ -285,6 +285,15 @@ TEST(explicit_steps, come_to_rest) {
   EXPECT_TRUE(solver.state().velocity.isZero(0.0));
 }
 
+// Longer ways: explicit_bodies_test.
+TEST(explicit_steps, take_large_deformation) {
+  Solver<2> solver(biaxial(Deformation::large), {});
+  ASSERT_TRUE(solver.begin_explicit().converged);
+  const StepReport report = solver.advance_explicit(0.1, 50);
+  EXPECT_TRUE(report.converged) << report.message;
+  EXPECT_LT(force_on_top(solver), -kPressure * 0.04);
+}
+
 TEST(explicit_steps, go_on_from_an_archive_to_the_same_bits) {
   Solver<2> through(biaxial(), {});
   ASSERT_TRUE(through.begin_explicit().converged);

@@ -12,6 +12,11 @@
 namespace polargrain::testing::heat {
 namespace {
 
+// Its order: nodal_field_order_test.
+TEST(nodal_field, carries_heat_in_space) {
+  EXPECT_LT(error_at_end<3>(2, "H8", 0.5, 4), 0.1);
+}
+
 TEST(nodal_field, leaves_the_displacements_as_they_are_without_it) {
   Problem<2> dry = cooling_bar<2>(4, "Q8R", 1.0);
   dry.fields.clear(), dry.prescribed_fields.clear(), dry.contributions.clear();

@@ -254,6 +254,28 @@ TEST(SphereBoxes, ForcesOfContactsBalance) {
   EXPECT_NEAR(box.imbalance().force, unbalanced, 1e-10 * mean);
 }
 
+// A dashpot of rolling is that of its spring: where the spring bears nothing, it is silent.
+TEST(SphereBoxes, HaveNoDashpotsOfRollingWithoutALimit) {
+  const Packing made = packing();
+  const auto state = [&made](bool damped) {
+    Laws laws{"li_chu", NormalLaw::hooke_radii, TangentialLaw::li_chu, RollingLaw::li_chu, {}};
+    laws.settings.torsion = laws.settings.rolling_force = true;
+    laws.settings.rolling_damped = laws.settings.rolling_force_damped = damped;
+    Spheres spheres = spheres_of(made, laws);
+    for (PairParameters& pair : spheres.combination.pairs)
+      pair.rolling_friction = pair.rolling_force_friction = 0.0;
+    SphereBox box(spheres, sphere_kernels(best_instruction_set()));
+    box.restore(at_rest(made, spheres));
+    run(box, 200);
+    return std::vector<double>(box.places().begin(), box.places().end());
+  };
+  const std::vector<double> with = state(true);
+  const std::vector<double> without = state(false);
+  double apart = 0.0;
+  for (std::size_t k = 0; k < with.size(); ++k) apart = std::max(apart, std::abs(with[k] - without[k]));
+  EXPECT_LT(apart, 1e-12);  // m: forces at their limits are cut once more, to round-off
+}
+
 TEST(SphereBoxes, SumContactsWithoutAList) {
   const Packing made = packing();
   const Spheres spheres = spheres_of(made, kLaws[4]);

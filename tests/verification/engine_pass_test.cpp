@@ -131,7 +131,8 @@ INSTANTIATE_TEST_SUITE_P(Combinations, EnginePass, ::testing::ValuesIn(kCombinat
                          [](const auto& tested) { return tested.param.name; });
 
 const char* const kFull =
-    "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on rollingFrictionForce on damping on";
+    "hooke/radii tangential li_chu rolling_friction li_chu torsionTorque on rollingDamping on "
+    "rollingFrictionForce on rollingFrictionForceDamping on damping on";
 
 TEST(EnginePasses, FreezeGrainsAndMeetWallsAsTheEngineDoes) {
   // Grains of two types, the lowest of them frozen, under a wall of the engine's own; the contacts of the wall and the mass of
@@ -144,7 +145,8 @@ TEST(EnginePasses, FreezeGrainsAndMeetWallsAsTheEngineDoes) {
             " units box\ngroup low region low\nfix hold low freeze\n"
             "fix wall all wall/gran model hooke/radii tangential li_chu rolling_friction li_chu primitive type 1 " +
             up +
-            "plane 0.0 allow_special_domain_periodic yes torsionTorque on rollingFrictionForce on damping on\n");
+            "plane 0.0 allow_special_domain_periodic yes torsionTorque on rollingDamping on rollingFrictionForce on "
+            "rollingFrictionForceDamping on damping on\n");
     script.replace(script.find("boundary p p p"), 14, dimension == 2 ? "boundary p f p" : "boundary p p f");
     Scene fast(packing_of(dimension), script, true);
     Scene engine(packing_of(dimension), script, false);

@@ -423,7 +423,7 @@ TEST(OnePoint, CoupleModuliOfSpaceAreElastic) {
   EXPECT_LT((whole - 4.0 * quarter).norm(), 1e-6 * whole.norm());
 }
 
-// As fast as Newton's steps allow; the difference is that of explicit steps with every element (fem_explicit_test).
+// As fast as Newton's steps allow; the difference is that of explicit steps with every element (explicit_bodies_test).
 TEST(OnePoint, ExplicitStepsAgreeWithNewton) {
   EXPECT_NEAR(squeezed<2>("Q4R", 2, 2000) / squeezed<2>("Q4R", 2, 0), 1.0, 0.02);
   EXPECT_NEAR(squeezed<3>("H8R", 2, 2000) / squeezed<3>("H8R", 2, 0), 1.0, 0.02);
