@@ -37,24 +37,22 @@ HEIGHT = 0.8  # m
 # Element and number of elements; the last is the reference.
 PLANE = [("Q8R", "[2, 4]", 32), ("Q4R", "[4, 8]", 32), ("Q8R", "[1, 2]", 8), ("Q4R", "[2, 4]", 8), ("Q8R", "[4, 8]", 128)]
 SPACE = [("H20R", "[1, 1, 2]", 16), ("H8R", "[2, 2, 4]", 16), ("H8R", "[1, 1, 2]", 2), ("H20R", "[2, 2, 4]", 128)]
-BLOCK = ("mesh:\n  rectangle: {size: [0.4 m, 0.8 m], elements: [2, 4]}\n  element: Q8R\n",
-         "mesh:\n  rectangle: {{size: [0.4 m, 0.8 m], elements: {elements}}}\n  element: {element}\n")
 BLOCK_IN_SPACE = """title: Compression between rough plates in space
-mesh: {{box: {{size: [0.4 m, 0.4 m, 0.8 m], elements: {elements}}}, element: {element}}}
+mesh: {box: {size: [0.4 m, 0.4 m, 0.8 m], elements: [1, 1, 2]}, element: H20R}
 deformation: large
-materials: {{sand: {{model: cell, script: cells/spheres_hooke_radii.in, packing: spheres_seed1.h5, lc: 80 mm}}}}
-regions: {{all: sand}}
+materials: {sand: {model: cell, script: cells/spheres_hooke_radii.in, packing: spheres_seed1.h5, lc: 80 mm}}
+regions: {all: sand}
 boundary:
-  - {{on: bottom, fix: [u1, u2, u3]}}
-  - {{on: top, fix: [u1, u2], move: {{u3: -4 mm}}}}
-  - {{on: [left, right, front, back], pressure: 100 kPa}}
-steps: {{method: explicit, count: 10}}
+  - {on: bottom, fix: [u1, u2, u3]}
+  - {on: top, fix: [u1, u2], move: {u3: -4 mm}}
+  - {on: [left, right, front, back], pressure: 100 kPa}
+steps: {method: explicit, count: 10}
 monitors:
-  top_force: {{on: top, reaction: u3}}
-  shortening: {{on: top, displacement: u3}}
+  top_force: {on: top, reaction: u3}
+  shortening: {on: top, displacement: u3}
   axial_strain: -shortening / 0.8 m
   stress_ratio: -top_force / (0.4 m * 0.4 m * 100 kPa)
-output: {{every: 1000}}
+output: {every: 1000}
 """
 PEAK = 0.015  # strain up to which curves are compared before the peak
 
@@ -71,13 +69,13 @@ class Study:
             subprocess.run([self.program, "pack", f"{packing.stem}.yaml", "-o", packing.name, "--quiet"], cwd=self.place, check=True)
         return packing.name
 
-    def run(self, name, kind, seed, strain, settings, case="explicit_plates.yaml"):
+    def run(self, name, kind, seed, strain, settings, case="explicit_plates.yaml", along="u2"):
         """@returns rows of history.csv as numbers, the summary, and the user time in s"""
         out = self.place / f"{name}-{seed}"
         if not (out / "user_seconds").exists():
             script = "spheres_hooke_radii" if kind == "spheres" else "hooke_radii"
             settings = [f"materials.sand.packing={self.packing(kind, seed)}", f"materials.sand.script=cells/{script}.in",
-                        f"boundary.1.move.{'u3' if 'spheres-H' in case else 'u2'}={-1e3 * strain * HEIGHT:.10g} mm"] + settings
+                        f"boundary.1.move.{along}={-1e3 * strain * HEIGHT:.10g} mm"] + settings
             command = [self.program, "run", case, "-o", out.name, "-w", "1", "--quiet"]
             for setting in settings:
                 command += ["--set", setting]
@@ -195,13 +193,15 @@ def biaxial(study):
     table("cases/biaxial", groups, list(next(iter(groups.values()))[0]))
 
 
-def compare_elements(study, title, kind, strain, pace, variants):
-    """@param variants the case, element, name and boxes of each; the last is the reference"""
+def compare_elements(study, title, kind, strain, pace, listed, case, mesh, along):
+    """@param listed element, number of elements and boxes of each; the last is the reference @param mesh key of the mesh"""
     groups = {}
     for seed in study.seeds:
-        runs = [study.run(f"elements-{name}", kind, seed, strain, [f"steps.pace={pace}"], case=case) for case, _, name, _ in variants]
+        runs = [study.run(f"elements-{kind}-{element}-{boxes}", kind, seed, strain,
+                          [f"steps.pace={pace}", f"mesh.element={element}", f"mesh.{mesh}.elements={count}"], case=case, along=along)
+                for element, count, boxes in listed]
         reference = runs[-1][0]
-        for (_, element, _, boxes), (rows, _, seconds) in zip(variants[:-1], runs):
+        for (element, _, boxes), (rows, _, seconds) in zip(listed[:-1], runs):
             errors = [row["stress_ratio"] - at(reference, row["axial_strain"]) for row in rows[1:]]
             groups.setdefault(f"{element}, {boxes} boxes", []).append({
                 "error, rms, % of the last": 100 * rms(errors) / reference[-1]["stress_ratio"],
@@ -211,20 +211,9 @@ def compare_elements(study, title, kind, strain, pace, variants):
 
 
 def elements(study):
-    def variants(kind, template, listed):
-        made = []
-        for element, count, boxes in listed:
-            name = f"{kind}-{element}-{boxes}"
-            (study.place / f"{name}.yaml").write_text(template.format(element=element, elements=count), encoding="utf-8")
-            made.append((f"{name}.yaml", element, name, boxes))
-        return made
-
-    plates = (study.place / "explicit_plates.yaml").read_text(encoding="utf-8")
-    if BLOCK[0] not in plates:
-        raise SystemExit("explicit_plates.yaml has another mesh than this study knows")
-    plane = plates.replace("{", "{{").replace("}", "}}").replace(BLOCK[0].replace("{", "{{").replace("}", "}}"), BLOCK[1])
-    compare_elements(study, "in the plane, 100 discs", "discs", PEAK, "1.5e-4", variants("discs", plane, PLANE))
-    compare_elements(study, "in space, 200 spheres", "spheres", 0.005, "3.75e-5", variants("spheres", BLOCK_IN_SPACE, SPACE))
+    (study.place / "block.yaml").write_text(BLOCK_IN_SPACE, encoding="utf-8")
+    compare_elements(study, "in the plane, 100 discs", "discs", PEAK, "1.5e-4", PLANE, "explicit_plates.yaml", "rectangle", "u2")
+    compare_elements(study, "in space, 200 spheres", "spheres", 0.005, "3.75e-5", SPACE, "block.yaml", "box", "u3")
 
 
 def main():
