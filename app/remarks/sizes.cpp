@@ -112,6 +112,7 @@ std::string Expectation::work() const {
 
 Expectation expectation_of(const Scene& scene) {
   Expectation sum;
+  const double resident = dem_steps_of_resident(scene);
   for (const SceneRegion& region : scene.regions()) {
     if (region.cell == nullptr) continue;
     const auto points = static_cast<double>(scene.points_of(region));
@@ -119,7 +120,6 @@ Expectation expectation_of(const Scene& scene) {
     const bool spheres = region.cell->packing.dimension == 3;
     const double of_step = spheres ? kSecondsOfSphere : kSecondsOfDisc;
     const auto grains = static_cast<double>(region.cell->packing.grains.size());
-    const double resident = dem_steps_of_resident(scene);
     if (resident > 0.0 && model != nullptr && model->text == "cell") {
       sum.dem_steps_of_box = resident;
       sum.core_seconds += points * resident * grains * of_step;

@@ -96,6 +96,9 @@ inline bool limit_length(double* vector, double limit) {
 }
 
 /// Whether the force of a spring stands at its limit; one without a limit, which is zero, does.
+inline bool stands_at(double force, double limit) {
+  return std::abs(force) >= kStandingAtLimit * limit;
+}
 inline bool stands_at(const double* force, double limit) {
   const double least = kStandingAtLimit * limit;
   return dot(force, force) >= least * least;

@@ -171,7 +171,7 @@ class RollingModel<ROLLING_LI_CHU> : public RollingModelBase {
     const bool at_limit = std::abs(torque) > limit;
     if (at_limit) torque = std::copysign(limit, torque);
     if (advance) stored = at_limit ? torque / stiffness : angle;
-    if (std::abs(torque) < polargrain::dem::kStandingAtLimit * limit) torque += damping * rate;
+    if (!polargrain::dem::stands_at(torque, limit)) torque += damping * rate;
     for (int axis = 0; axis < 3; ++axis) moment[axis] += torque * contact.en[axis];
     return at_limit;
   }

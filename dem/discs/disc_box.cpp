@@ -28,10 +28,8 @@ double least_stretch(const Eigen::Matrix2d& f) {
 }
 
 DiscKernels::Pass pass_of(const DiscKernels& kernels, const LawCombination& laws) {
-  const LawSettings& on = laws.settings;
-  const bool bare = !on.damped && !on.limit_force && !on.rolling_force && !on.rolling_damped;
   return kernels.pass[static_cast<int>(laws.normal)][static_cast<int>(laws.tangential)]
-                     [static_cast<int>(laws.rolling)][bare ? 1 : 0];
+                     [static_cast<int>(laws.rolling)][laws.is_bare() ? 1 : 0];
 }
 
 void put_rows(double* four, const Eigen::Matrix2d& matrix) {

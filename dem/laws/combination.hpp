@@ -23,6 +23,8 @@ struct LawCombination {
 
   /// A number for the models and settings: springs mean something under the same one only.
   [[nodiscard]] int code() const;
+  /// Whether the bare kernels have the laws: no dashpots, no limit of normal forces, no rolling friction force.
+  [[nodiscard]] bool is_bare() const;
   [[nodiscard]] std::string name() const;  ///< "hooke/radii, history, li_chu"
 };
 

@@ -14,6 +14,12 @@ int LawCombination::code() const {
   return laws * 4 + (settings.rolling_force ? 2 : 0) + (settings.symmetric ? 1 : 0);
 }
 
+bool LawCombination::is_bare() const {
+  const bool whole_spin = settings.torsion && rolling == RollingLaw::epsd2;
+  return !(settings.damped || settings.limit_force || settings.rolling_force || settings.rolling_damped ||
+           whole_spin);
+}
+
 std::string LawCombination::name() const {
   constexpr std::array<std::string_view, 3> kNormal{"hooke/radii", "hooke/stiffness", "hertz"};
   constexpr std::array<std::string_view, 2> kTangential{"history", "li_chu"};

@@ -98,12 +98,6 @@ std::array<bool, kSphereConstants> constants_read(const LawCombination& laws) {
 
 }  // namespace
 
-bool is_bare(const LawCombination& combination) {
-  const LawSettings& on = combination.settings;
-  const bool whole_spin = on.torsion && combination.rolling == RollingLaw::epsd2;
-  return !(on.damped || on.limit_force || on.rolling_force || on.rolling_damped || whole_spin);
-}
-
 int sphere_spring_count(const LawCombination& combination) {
   const LawSettings& on = combination.settings;
   if (on.rolling_force && !on.symmetric) return kSphereSprings;
@@ -112,14 +106,14 @@ int sphere_spring_count(const LawCombination& combination) {
 }
 
 int springs_in_pass(const LawCombination& combination) {
-  return is_bare(combination) ? sphere_spring_count(combination) : kSphereSprings;
+  return combination.is_bare() ? sphere_spring_count(combination) : kSphereSprings;
 }
 
 SphereKernels::Pass kernel_of(const SphereKernels& kernels, const LawCombination& combination) {
   int rolling = static_cast<int>(combination.rolling);
   if (combination.rolling == RollingLaw::li_chu && combination.settings.torsion) ++rolling;
   return kernels.pass[combination.normal == NormalLaw::hertz ? 1 : 0]
-                     [static_cast<int>(combination.tangential)][rolling][is_bare(combination) ? 1 : 0];
+                     [static_cast<int>(combination.tangential)][rolling][combination.is_bare() ? 1 : 0];
 }
 
 SpherePass pass_over(SphereList& list, const LawCombination& combination) {

@@ -21,10 +21,6 @@ constexpr double sphere_inertia(double mass, double radius) {
   return 0.4 * mass * radius * radius;
 }
 
-/// Whether the law of a combination is one of the bare kernels: no dashpots, no limit of normal forces, no rolling
-/// friction force.
-bool is_bare(const LawCombination& combination);
-
 /// Springs of a contact that mean something, the first ones of SphereSpring.
 int sphere_spring_count(const LawCombination& combination);
 
