@@ -50,25 +50,6 @@ hid_t native_type() {
   if constexpr (std::is_same_v<Value, int>) return H5T_NATIVE_INT;
 }
 
-/// A new file in memory. The library is never let write to a disk: when that is full it crashes at the end of
-/// the program.
-inline Handle make_file() {
-  constexpr std::size_t kGrowth = std::size_t{4} << 20;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "access");
-  check(H5Pset_fapl_core(access, kGrowth, false), "access");
-  return {H5Fcreate("in_memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file in memory"};
-}
-
-/// All bytes of a file that was made in memory.
-inline std::string bytes_of_file(hid_t file) {
-  check(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush");
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  if (size < 0) throw RunError("size");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) throw RunError("bytes");
-  return bytes;
-}
-
 /// A new array of so many elements. Groups on the way are made.
 inline Handle make_array(hid_t file, const std::string& name, hid_t type, hsize_t size) {
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);

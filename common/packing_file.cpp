@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "common/error.hpp"
-#include "common/hdf5_file.hpp"
+#include "common/file_in_memory.hpp"
 #include "common/record_table.hpp"
 #include "common/regular_file.hpp"
 #include "common/sealed_file.hpp"
@@ -160,13 +160,14 @@ Content content_in(const std::filesystem::path& file) {
 void write_packing_file(const std::filesystem::path& file, const PreparedPacking& packing) {
   hdf5::silence();
   Content content = content_of(packing);
-  const Handle out = hdf5::make_file();
+  hdf5::FileInMemory made;
+  const hid_t out = made.file();
   write_array(out, "version", std::array<int, 1>{content.version});
   write_array(out, "content_hash", content.name());
   content.visit([&](const char* name, const auto& array) { write_array(out, name, array); });
-  std::string bytes = hdf5::bytes_of_file(out);
-  seal(bytes);
-  write_file(file, bytes);
+  const std::string_view bytes = made.close();
+  const std::string mark = seal_of(bytes);
+  write_file(file, std::array<std::string_view, 2>{bytes, mark});
 }
 
 PreparedPacking read_packing_file(const std::filesystem::path& file) {

@@ -76,10 +76,10 @@ XXH128_canonical_t hash_of(int file, off_t bytes) {
 
 }  // namespace
 
-void seal(std::string& bytes) {
+std::string seal_of(std::string_view bytes) {
   Trailer trailer{kMark, {}};
   XXH128_canonicalFromHash(&trailer.hash, XXH3_128bits(bytes.data(), bytes.size()));
-  bytes.append(reinterpret_cast<const char*>(&trailer), sizeof trailer);
+  return {reinterpret_cast<const char*>(&trailer), sizeof trailer};
 }
 
 void check_seal(const std::filesystem::path& file) {

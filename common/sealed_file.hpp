@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace polargrain {
 
@@ -9,8 +10,8 @@ namespace polargrain {
 /// disk or a bad sector is known before anybody tries to read it. Libraries that read the file do
 /// not mind the 32 bytes behind its end.
 
-/// Appends mark and hash.
-void seal(std::string& bytes);
+/// Mark and hash: they stand behind the bytes.
+std::string seal_of(std::string_view bytes);
 
 /// @throws RunError with the reason when the file has no mark at its end or does not match its hash
 void check_seal(const std::filesystem::path& file);

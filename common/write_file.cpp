@@ -18,6 +18,7 @@ namespace polargrain {
 namespace {
 
 namespace fs = std::filesystem;
+using Parts = std::span<const std::string_view>;
 
 /// The place that a name stands for: where a link leads, though nothing may be there yet. Renaming onto a link would take the
 /// link away, and leave what it led to as it was. @returns nothing when links lead round in circles
@@ -40,32 +41,33 @@ bool is_stream(const fs::path& file) {
 }
 
 /// @returns 0, or why the bytes cannot be written (errno)
-int write_all(int descriptor, const std::string& content) {
+int write_all(int descriptor, Parts parts) {
   int reason = 0;
-  for (std::size_t place = 0; place < content.size() && reason == 0;) {
-    const ssize_t count = write(descriptor, content.data() + place, content.size() - place);
-    if (count > 0) place += static_cast<std::size_t>(count);
-    if (count < 0 && errno != EINTR) reason = errno;
-  }
+  for (const std::string_view part : parts)
+    for (std::size_t place = 0; place < part.size() && reason == 0;) {
+      const ssize_t count = write(descriptor, part.data() + place, part.size() - place);
+      if (count > 0) place += static_cast<std::size_t>(count);
+      if (count < 0 && errno != EINTR) reason = errno;
+    }
   return reason;
 }
 
 /// Into what is there already: nothing takes its place. A pipe that nobody reads is an error, not something to wait for.
-int write_into_stream(const fs::path& stream, const std::string& content) {
+int write_into_stream(const fs::path& stream, Parts parts) {
   const int descriptor = open(stream.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) return errno;
   fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
-  const int reason = write_all(descriptor, content);
+  const int reason = write_all(descriptor, parts);
   return close(descriptor) != 0 && reason == 0 ? errno : reason;
 }
 
 /// @returns 0, or why the file cannot be written (errno)
-int try_to_write(const std::filesystem::path& file, const std::string& content, Durability durability) {
+int try_to_write(const std::filesystem::path& file, Parts parts, Durability durability) {
   // A file of that name is ours, or it is an error: no link is followed, no pipe waited for.
   const int descriptor =
       open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (descriptor < 0) return errno;
-  int reason = write_all(descriptor, content);
+  int reason = write_all(descriptor, parts);
   if (reason == 0 && durability == Durability::disk && syncfs(descriptor) != 0) reason = errno;
   // Some file systems find out only now that there is no room.
   if (close(descriptor) != 0 && reason == 0) reason = errno;
@@ -95,14 +97,19 @@ void keep_as(const std::filesystem::path& file, const std::filesystem::path& kep
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, const std::string& content, Durability durability,
+void write_file(const std::filesystem::path& file, std::string_view content, Durability durability,
+                const std::filesystem::path& keep) {
+  write_file(file, Parts(&content, 1), durability, keep);
+}
+
+void write_file(const std::filesystem::path& file, Parts parts, Durability durability,
                 const std::filesystem::path& keep) {
   const auto fail = [&file](const char* what, int reason) {
     throw RunError(fmt::format("{} cannot be {}: {}", file.string(), what, std::strerror(reason)));
   };
   if (file.native().find('\0') != std::string::npos) fail("written", EINVAL);  // it would be another file
   if (is_stream(file)) {
-    if (const int reason = write_into_stream(file, content); reason != 0) fail("written", reason);
+    if (const int reason = write_into_stream(file, parts); reason != 0) fail("written", reason);
     return;
   }
   const std::optional<fs::path> place = place_of(file);
@@ -110,7 +117,7 @@ void write_file(const std::filesystem::path& file, const std::string& content, D
   std::filesystem::path temporary = *place;
   temporary += ".part";
   std::error_code nothing;
-  if (const int reason = try_to_write(temporary, content, durability); reason != 0) {
+  if (const int reason = try_to_write(temporary, parts, durability); reason != 0) {
     std::filesystem::remove(temporary, nothing);
     fail("written", reason);
   }

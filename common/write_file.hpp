@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <filesystem>
-#include <string>
+#include <span>
+#include <string_view>
 
 namespace polargrain {
 
@@ -15,7 +16,10 @@ enum class Durability {
 /// not a file (/dev/stdout, a pipe) the bytes are written as they are: nothing takes its place.
 /// @param keep where the former file goes when the new one is there; empty: it is not kept
 /// @throws RunError with the reason when it cannot be written; a former one is then untouched
-void write_file(const std::filesystem::path& file, const std::string& content,
+void write_file(const std::filesystem::path& file, std::string_view content,
+                Durability durability = Durability::system, const std::filesystem::path& keep = {});
+/// The same of several parts, one behind the other.
+void write_file(const std::filesystem::path& file, std::span<const std::string_view> parts,
                 Durability durability = Durability::system, const std::filesystem::path& keep = {});
 
 }  // namespace polargrain

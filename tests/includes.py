@@ -8,7 +8,7 @@ import sys
 # From below to above. Folders of one line do not include each other.
 LAYERS = {
     "": [["common"], ["grains_io"], ["fem", "dem"], ["element", "band"], ["coupler"], ["app"]],
-    "dem/": [["engine"], ["contact"], ["box", "lanes"], ["laws"], ["discs"], ["sphere_loop"], ["cell"], ["pack", "specimen", "standalone"]],
+    "dem/": [["engine"], ["contact"], ["lanes"], ["box"], ["laws"], ["discs"], ["sphere_loop"], ["cell"], ["pack", "specimen", "standalone"]],
 }
 
 

@@ -26,6 +26,14 @@ constexpr double kSecondsOfTangentOfSphere = 14e-6;
 /// Measured with H20R, H8 and H8R of an elastoplastic law, the solution of the equations included: 13 to 30 kB, directly and by
 /// iterations (bench/space_solve_bench.cpp).
 constexpr double kBytesOfUnknownInSpace = 25e3;
+/// Measured (RSS), 13,824 boxes of 1,000 spheres and 3,200 of 400 discs: a grain of a box that stays with its worker, and twice its
+/// state with the coordinator, which has the last one and the one before while boxes are read out.
+constexpr double kBytesOfResidentSphere = 0.7e3;
+constexpr double kBytesOfResidentDisc = 0.4e3;
+constexpr double kBytesOfStatesOfSphere = 0.45e3;
+constexpr double kBytesOfStatesOfDisc = 0.25e3;
+/// Below, no machine lacks it.
+constexpr double kBytesWorthTelling = 1e9;
 
 std::string seconds(double s) {
   if (s < 120.0) return fmt::format("{:.0f} s", std::max(1.0, s));
@@ -100,6 +108,24 @@ std::string of_real_time(const Scene& scene) {
       dem_steps, seconds(core_seconds));
 }
 
+std::string of_memory(const Scene& scene, const Expectation& expected) {
+  std::string boxes;
+  if (expected.bytes_of_boxes >= kBytesWorthTelling)
+    boxes = fmt::format("up to {:.2g} GB for the boxes", 1e-9 * expected.bytes_of_boxes);
+  if (scene.dimension() == 2) return boxes.empty() ? boxes : boxes + "\n";
+  std::size_t points = 0;
+  std::size_t cells = 0;
+  const std::size_t nodes = scene.with_problem([](const auto& problem) { return problem.mesh.nodes.size(); });
+  for (const SceneRegion& region : scene.regions()) {
+    points += scene.points_of(region);
+    if (region.cell != nullptr) cells += scene.points_of(region);
+  }
+  return fmt::format("{} points, of which {} have boxes of grains; some {:.2g} GB for the elements{}{}\n",
+                     points, cells,
+                     1e-9 * kBytesOfUnknownInSpace * Cosserat<3>::dofs * static_cast<double>(nodes),
+                     boxes.empty() ? "" : ", ", boxes);
+}
+
 }  // namespace
 
 std::string Expectation::work() const {
@@ -120,7 +146,9 @@ Expectation expectation_of(const Scene& scene) {
     const bool spheres = region.cell->packing.dimension == 3;
     const double of_step = spheres ? kSecondsOfSphere : kSecondsOfDisc;
     const auto grains = static_cast<double>(region.cell->packing.grains.size());
+    sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfStatesOfSphere : kBytesOfStatesOfDisc);
     if (resident > 0.0 && model != nullptr && model->text == "cell") {
+      sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfResidentSphere : kBytesOfResidentDisc);
       sum.dem_steps_of_box = resident;
       sum.core_seconds += points * resident * grains * of_step;
       continue;
@@ -158,20 +186,7 @@ std::string sizes_text(const Scene& scene) {
   if (const std::string work = expected.work(); !work.empty())
     text += fmt::format("to be expected: some {}{}, {} of one core\n", work,
                         expected.evaluations > 0.0 ? " at most" : "", seconds(expected.core_seconds));
-  if (scene.dimension() == 3) {
-    std::size_t points = 0;
-    std::size_t cells = 0;
-    const std::size_t nodes =
-        scene.with_problem([](const auto& problem) { return problem.mesh.nodes.size(); });
-    for (const SceneRegion& region : scene.regions()) {
-      points += scene.points_of(region);
-      if (region.cell != nullptr) cells += scene.points_of(region);
-    }
-    text +=
-        fmt::format("{} points, of which {} have boxes of grains; some {:.2g} GB for the elements\n", points,
-                    cells, 1e-9 * kBytesOfUnknownInSpace * Cosserat<3>::dofs * static_cast<double>(nodes));
-  }
-  return text;
+  return text + of_memory(scene, expected);
 }
 
 }  // namespace polargrain::app

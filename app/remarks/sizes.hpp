@@ -11,6 +11,7 @@ struct Expectation {
   double evaluations = 0.0;       ///< of cells
   double dem_steps_of_box = 0.0;  ///< of boxes that stay with their workers in explicit steps
   double core_seconds = 0.0;
+  double bytes_of_boxes = 0.0;  ///< with all their workers and the coordinator
 
   [[nodiscard]] std::string work() const;  ///< in words; without cells it is empty
 };

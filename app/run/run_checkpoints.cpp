@@ -2,6 +2,7 @@
 #include "app/run/run_checkpoints.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <system_error>
 
@@ -20,7 +21,11 @@ bool RunCheckpoints::is_due() const {
 std::optional<double> RunCheckpoints::save() {
   if (!last_ || last_->step == saved_step_) return std::nullopt;
   const Clock::time_point begin = Clock::now();
+  // The pool keeps the memory of freed states for those to come, and would keep that of the file's image as well: they are
+  // not needed at the same time.
+  malloc_trim(0);
   write_checkpoint(directory_ / kCheckpointFile, *last_);
+  malloc_trim(0);
   saved_ = Clock::now();
   saved_step_ = last_->step;
   return seconds_of(saved_ - begin);

@@ -6,7 +6,7 @@
 #include <array>
 #include <system_error>
 
-#include "common/hdf5_file.hpp"
+#include "common/file_in_memory.hpp"
 #include "common/sealed_file.hpp"
 #include "common/trial.hpp"
 #include "common/write_file.hpp"
@@ -161,8 +161,7 @@ void read_arrays(hid_t file, MemoryArchive& archive) {
   }
 }
 
-std::string content_of(const Checkpoint& checkpoint) {
-  const Handle out = hdf5::make_file();
+void write_content(hid_t out, const Checkpoint& checkpoint) {
   write_array(out, "version", std::array<std::int64_t, 1>{kVersion});
   write_array(out, "program", checkpoint.program);
   write_array(out, "case/values", text_of(checkpoint.identity.values));
@@ -171,7 +170,6 @@ std::string content_of(const Checkpoint& checkpoint) {
   write_array(out, "run/history", checkpoint.history);
   write_array(out, "run/costs", checkpoint.costs);
   write_arrays(out, checkpoint.state);
-  return hdf5::bytes_of_file(out);
 }
 
 }  // namespace
@@ -179,9 +177,11 @@ std::string content_of(const Checkpoint& checkpoint) {
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint,
                       Durability durability) try {
   hdf5::silence();
-  std::string bytes = content_of(checkpoint);
-  seal(bytes);
-  write_file(file, bytes, durability, checkpoint_before(file));
+  hdf5::FileInMemory made;
+  write_content(made.file(), checkpoint);
+  const std::string_view bytes = made.close();
+  const std::string mark = seal_of(bytes);
+  write_file(file, std::array<std::string_view, 2>{bytes, mark}, durability, checkpoint_before(file));
 } catch (const RunError& error) {
   throw RunError(fmt::format("the checkpoint {}", error.what()));
 }

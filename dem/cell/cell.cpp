@@ -264,11 +264,14 @@ struct Cell<dim>::ResidentKind {
   using Grains = typename Loop::Grains;
   Cell& cell;
   LawCombination combination;
+  /// Thousands of boxes wait side by side, and a record is as large as a box.
+  std::shared_ptr<BoxRecords> records = std::make_shared<BoxRecords>();
 
   [[nodiscard]] std::unique_ptr<Grains> make() const {
     auto box = Loop::make(cell.driver_, combination, cell.control_.loop == CellLoop::plain);
     box->progress = cell.grains_->progress;
     box->set_time_step(cell.time_step_);
+    box->share(records);
     return box;
   }
   void alive() const {
@@ -289,11 +292,12 @@ struct Cell<dim>::ResidentKind {
     box.set_up();
     hold(box);
     box.hold_rotation();
-    if (dim == 2) return;
-    // Contacts that have stiffened since the packing was at rest ask for a shorter time step.
-    const double stiffer =
-        frequency_bound(box.contacts(), cell.inertia_) / (kStiffer * cell.frequency_bound_);
-    box.set_time_step(cell.time_step_ / std::max(1.0, stiffer));
+    if constexpr (dim == 3) {
+      // Contacts that have stiffened since the packing was at rest ask for a shorter time step.
+      const double stiffer =
+          frequency_bound(box.contacts(), cell.inertia_) / (kStiffer * cell.frequency_bound_);
+      box.set_time_step(cell.time_step_ / std::max(1.0, stiffer));
+    }
   }
   void go_on(Grains& box, int steps, const CellIncrement& whole) const {
     const auto increment = increment_of<dim>(whole);
@@ -319,11 +323,13 @@ struct Cell<dim>::ResidentKind {
   [[nodiscard]] double time_step() const { return cell.time_step_; }
   [[nodiscard]] ResidentReadOut read(Grains& box) const {
     ResidentReadOut all;
-    all.reply.response = cell.respond(box, Tangent::Zero());
-    all.reply.diagnostics = cell.measure(box);
     all.motion.gradient.template topLeftCorner<dim, dim>() = box.motion().gradient();
     all.motion.spin.template segment<Cosserat<dim>::rotations>(Cosserat<dim>::axis(0)) = box.motion().spin();
-    all.reply.state = box.save_moving();
+    const StatePointer state = box.save_moving();
+    put(box, {state, all.motion});
+    all.reply.response = cell.respond(box, Tangent::Zero());
+    all.reply.diagnostics = cell.measure(box);
+    all.reply.state = state;
     return all;
   }
 };

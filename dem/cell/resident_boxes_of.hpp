@@ -29,7 +29,8 @@ double quick_force_ratio(const Imbalance& imbalance, const ContactSums<dim>& sum
 ///   go_on(box, steps, increment)     see ResidentBoxes
 ///   alive()                          tells whoever waits that there is work going on
 ///   time_step()                      see ResidentBoxes
-///   answer(box), read(box)           after a step; `read` gives the state too, with the motion that belongs to it
+///   answer(box)                      of the step behind it
+///   read(box)                        everything, with the state and the motion that belongs to it; the box goes on from there
 template <class Kind>
 class ResidentBoxesOf final : public ResidentBoxes {
  public:
@@ -67,7 +68,6 @@ class ResidentBoxesOf final : public ResidentBoxes {
     for (std::size_t k = first; k < first + count; ++k) {
       kind_.alive();
       all.push_back(kind_.read(*boxes_[k]));
-      kind_.put(*boxes_[k], {all.back().reply.state, all.back().motion});
     }
     return all;
   }

@@ -54,7 +54,6 @@ DiscBox::DiscBox(Definition definition)
   discs_.resize(count);
   forces_.resize(count);
   motions_.resize(count);
-  rotations_.resize(count);
   listed_places_.resize(count);
   double mean = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -67,7 +66,6 @@ DiscBox::DiscBox(Definition definition)
   }
   skin_ = kDiscSkin * mean;
   list_.spring_count = former_.spring_count = spring_count(definition_.combination.rolling);
-  contacts_.reserve(3 * count);
 }
 
 void DiscBox::restore(const State& state) {
@@ -169,9 +167,7 @@ void DiscBox::find_candidates() {
   listed_inverse_ = base.inverse();
   wandered_ = 0.0;
   for (std::size_t k = 0; k < discs_.size(); ++k) listed_places_[k] = {discs_[k].x, discs_[k].y};
-  records_.resize(DiscRecord::columns * list_.second.size());
-  contacts_.clear();
-  listed_ = true;
+  records_->clear(this);
   images_.resize(list_.images.size() + 1);
   images_.back().x = 10.0 * largest_radius_;  // of pairs that never touch
   place_images();
@@ -216,14 +212,13 @@ void DiscBox::go_on(const BoxPath<2>& path, double damping_rate, const Loading& 
 }
 
 void DiscBox::compute_forces(bool advance, bool record) {
-  double* const records = record ? records_.data() : nullptr;
+  double* const records = record ? records_->begin(this, DiscRecord::columns * list_.second.size()) : nullptr;
   if (definition_.plain)
     plain_loop_.add_forces(
         {discs_, images_, motion_.curvature_rate().transpose(), definition_.time_step, advance, records},
         list_, forces_);
   else
     run_kernel(advance, records);
-  if (record) listed_ = false;
 }
 
 void DiscBox::run_kernel(bool advance, double* records) {
@@ -255,34 +250,33 @@ void DiscBox::run_kernel(bool advance, double* records) {
 }
 
 std::span<const Contact> DiscBox::contacts() const {
-  if (!listed_) read_records();
-  return contacts_;
+  if (!records_->of(this).are_listed) read_records();
+  return records_->contacts;
 }
 
 ContactSums<2> DiscBox::contact_sums() const {
-  if (listed_) return sums_of<2>(contacts_);
+  if (records_->of(this).are_listed) return sums_of<2>(records_->contacts);
   ContactSums<2> sums;
   const std::size_t candidates = list_.second.size();
-  const double* const touches = &records_[DiscRecord::touches * candidates];
-  const double* const delta = &records_[DiscRecord::delta * candidates];
-  const double* const force = &records_[DiscRecord::force * candidates];
+  const double* const touches = &records_->values[DiscRecord::touches * candidates];
+  const double* const delta = &records_->values[DiscRecord::delta * candidates];
+  const double* const force = &records_->values[DiscRecord::force * candidates];
   for (std::size_t c = 0; c < static_cast<std::size_t>(list_.rows.back()); ++c)
     if (touches[c] != 0.0) sums.add({-delta[c], -delta[candidates + c]}, {force[c], force[candidates + c]});
   return sums;
 }
 
 void DiscBox::read_records() const {
-  contacts_.clear();
-  listed_ = true;
+  records_->clear(this);
   const LawCombination& laws = definition_.combination;
   const double slope = laws.normal == NormalLaw::hertz ? kHertzSlope : 1.0;
   const std::size_t candidates = list_.second.size();
   const auto at = [this, candidates](int column, std::size_t c) {
-    return records_[static_cast<std::size_t>(column) * candidates + c];
+    return records_->values[static_cast<std::size_t>(column) * candidates + c];
   };
   for (std::size_t c = 0; c < static_cast<std::size_t>(list_.rows.back()); ++c) {
     if (at(DiscRecord::touches, c) == 0.0) continue;
-    Contact& contact = contacts_.emplace_back();
+    Contact& contact = records_->contacts.emplace_back();
     contact.first = list_.first[c];
     contact.second = list_.second[c];
     contact.branch = {-at(DiscRecord::delta, c), -at(DiscRecord::delta + 1, c), 0.0};
@@ -392,14 +386,17 @@ Imbalance DiscBox::imbalance() const {
 }
 
 std::span<const double> DiscBox::rotations() const {
-  for (std::size_t k = 0; k < motions_.size(); ++k) rotations_[k] = motions_[k].turned;
-  return rotations_;
+  std::vector<double>& all = records_->rotations;
+  all.resize(motions_.size());
+  for (std::size_t k = 0; k < motions_.size(); ++k) all[k] = motions_[k].turned;
+  return all;
 }
 
 std::span<const double> DiscBox::places() const {
-  places_.clear();
-  for (const Disc& disc : discs_) places_.insert(places_.end(), {disc.x, disc.y});
-  return places_;
+  std::vector<double>& all = records_->places;
+  all.clear();
+  for (const Disc& disc : discs_) all.insert(all.end(), {disc.x, disc.y});
+  return all;
 }
 
 GrainMotion<2> DiscBox::motion(int disc) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "dem/box/box_records.hpp"
 #include "dem/box/grain_box.hpp"
 #include "dem/box/snapshot.hpp"
 #include "dem/discs/disc_pass.hpp"
@@ -35,6 +36,9 @@ class DiscBox final : public GrainBox<2> {
     InstructionSet instructions = best_instruction_set();
   };
   explicit DiscBox(Definition definition);
+
+  /// Takes records that other boxes have too: they tell of this one until another one makes a pass.
+  void share(std::shared_ptr<BoxRecords> records) { records_ = std::move(records); }
 
   void restore(const State& state) override;
   /// The same from a snapshot. @throws RunError when it is not one of these discs and laws
@@ -107,10 +111,7 @@ class DiscBox final : public GrainBox<2> {
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
   double multiplier_ = 0.0;
-  LineVector<double> records_;
-  mutable std::vector<Contact> contacts_;
-  mutable bool listed_ = true;  ///< the contacts are those of the records
-  mutable std::vector<double> rotations_, places_;
+  std::shared_ptr<BoxRecords> records_ = std::make_shared<BoxRecords>();
 };
 
 /// The discs of an initialised engine as they stand there, with the springs of its contact histories.

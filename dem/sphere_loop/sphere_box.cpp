@@ -54,24 +54,21 @@ SphereBox::SphereBox(Spheres spheres, const SphereKernels& kernels)
   }
   grains_[(n + 1) * kGrainStride] = 1.0;  // two places without a grain lie apart
   skin_ = kSphereSkin * mean;
-  list_.spring_count = former_.spring_count = springs_in_pass(spheres_.combination);
+  list_.spring_count = springs_in_pass(spheres_.combination);
   listed_places_.resize(n);
-  contacts_.reserve(4 * n);
 }
 
-void SphereBox::find_candidates() {
+void SphereBox::find_candidates(const CarriedSprings& carried) {
   const Eigen::Matrix3d& base = motion_.box().base;
   list_.find(grains_.data(), count(), base, skin_);
-  list_.take_springs(former_);
+  list_.take_springs(carried);
   fill_constants(spheres_, list_);
   listed_inverse_ = motion_.box().inverse();
   wandered_ = reach_ = 0.0;
   for (std::size_t k = 0; k < listed_places_.size(); ++k)
     listed_places_[k] = ConstPlace(&grains_[k * kGrainStride]);
   images_.resize(list_.images.size() * kImageStride);
-  records_.resize(static_cast<std::size_t>(list_.count) * kSphereRecords);
-  contacts_.clear();
-  listed_ = true;
+  records_->clear(this);
   place_images();
 }
 
@@ -129,27 +126,27 @@ void SphereBox::compute_forces(bool advance, bool record) {
   put_matrix(pass.curvature_rate, by_rows);
   pass.bends = !by_rows.isZero(0.0);
   if (record) {
-    pass.records = records_.data();
+    pass.records = records_->begin(this, static_cast<std::size_t>(list_.count) * kSphereRecords);
     for (int block = 0; block < list_.count / kBlock; ++block)
-      std::fill_n(&records_[static_cast<std::size_t>(block) * kBlock * kSphereRecords], kBlock, 0.0);
+      std::fill_n(pass.records + static_cast<std::size_t>(block) * kBlock * kSphereRecords, kBlock, 0.0);
   }
   pass_(pass);
   if (further_forces) further_forces(grains_.data(), forces_.data());
-  if (record) listed_ = false;
 }
 
 std::span<const Contact> SphereBox::contacts() const {
-  if (!listed_) read_records();
-  return contacts_;
+  const BoxRecords& records = records_->of(this);
+  if (!records.are_listed) read_records();
+  return records.contacts;
 }
 
 const double* SphereBox::record_of(int candidate) const {
-  return &records_[static_cast<std::size_t>(candidate / kBlock) * (kBlock * kSphereRecords) +
-                   candidate % kBlock];
+  return &records_->values[static_cast<std::size_t>(candidate / kBlock) * (kBlock * kSphereRecords) +
+                           candidate % kBlock];
 }
 
 ContactSums<3> SphereBox::contact_sums() const {
-  if (listed_) return sums_of<3>(contacts_);
+  if (records_->of(this).are_listed) return sums_of<3>(records_->contacts);
   ContactSums<3> sums;
   for (int c = 0; c < list_.count; ++c) {
     const auto at = [record = record_of(c)](int which) { return record[which * kBlock]; };
@@ -160,11 +157,10 @@ ContactSums<3> SphereBox::contact_sums() const {
 }
 
 void SphereBox::read_records() const {
-  contacts_.clear();
-  listed_ = true;
+  records_->clear(this);
   for (int c = 0; c < list_.count; ++c) {
     const double* const record = record_of(c);
-    if (record[kIsTouching * kBlock] != 0.0) contacts_.push_back(contact_of(c, record));
+    if (record[kIsTouching * kBlock] != 0.0) records_->contacts.push_back(contact_of(c, record));
   }
 }
 
@@ -278,8 +274,7 @@ void SphereBox::run(int steps) {
   for (int done = 1; done <= steps; ++done) {
     begin_step(done > 1);
     if (outgrown()) {
-      std::swap(list_, former_);
-      find_candidates();
+      find_candidates(list_.carried());
     } else if (motion_.moving()) {
       place_images();
     }
@@ -304,16 +299,18 @@ void SphereBox::sum_up() {
 }
 
 std::span<const double> SphereBox::rotations() const {
-  rotations_.resize(3 * spheres_.radii.size());
-  for (std::size_t k = 0; k < spheres_.radii.size(); ++k) std::copy_n(&turned_[k * 4], 3, &rotations_[3 * k]);
-  return rotations_;
+  std::vector<double>& all = records_->rotations;
+  all.resize(3 * spheres_.radii.size());
+  for (std::size_t k = 0; k < spheres_.radii.size(); ++k) std::copy_n(&turned_[k * 4], 3, &all[3 * k]);
+  return all;
 }
 
 std::span<const double> SphereBox::places() const {
-  places_.resize(3 * spheres_.radii.size());
+  std::vector<double>& all = records_->places;
+  all.resize(3 * spheres_.radii.size());
   for (std::size_t k = 0; k < spheres_.radii.size(); ++k)
-    std::copy_n(&grains_[k * kGrainStride], 3, &places_[3 * k]);
-  return places_;
+    std::copy_n(&grains_[k * kGrainStride], 3, &all[3 * k]);
+  return all;
 }
 
 GrainMotion<3> SphereBox::motion(int sphere) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "dem/box/box_records.hpp"
 #include "dem/box/grain_box.hpp"
 #include "dem/box/snapshot.hpp"
 #include "dem/lanes/instruction_set.hpp"
@@ -26,6 +27,9 @@ class SphereBox final : public GrainBox<3> {
 
   /// Called in every step with the rows of grains and forces (SpherePass), to add to the forces; may be empty.
   std::function<void(const double* grains, double* forces)> further_forces;
+
+  /// Takes records that other boxes have too: they tell of this one until another one makes a pass.
+  void share(std::shared_ptr<BoxRecords> records) { records_ = std::move(records); }
 
   void restore(const State& state) override;
   /// The same from a snapshot. @throws RunError when it is not one of these spheres and laws
@@ -61,8 +65,8 @@ class SphereBox final : public GrainBox<3> {
  private:
   [[nodiscard]] int count() const { return static_cast<int>(spheres_.radii.size()); }
   [[nodiscard]] bool controlled() const { return motion_.rotation_is_prescribed() && !weights_.empty(); }
-  /// Makes the list anew; springs come from the former one.
-  void find_candidates();
+  /// Makes the list anew. @param carried springs of the former one
+  void find_candidates(const CarriedSprings& carried);
   /// Whether two spheres that are no candidates may have come to touch.
   [[nodiscard]] bool outgrown();
   void place_images();
@@ -88,9 +92,8 @@ class SphereBox final : public GrainBox<3> {
   // Two dummy spheres stand behind the others: they fill up the blocks of candidates.
   LineVector<double> grains_, forces_, accelerations_, turned_, inverse_mass_, inverse_inertia_;
   SphereList list_;
-  SphereList former_;
   LineVector<double> images_;
-  LineVector<double> records_;
+  std::shared_ptr<BoxRecords> records_ = std::make_shared<BoxRecords>();
   Eigen::Matrix3d listed_inverse_ = Eigen::Matrix3d::Identity();  // H^-1 when the list was made, 1/m
   std::vector<Eigen::Vector3d> listed_places_;
   double wandered_ = 0.0;  // bound of how far a sphere has moved against the affine flow since then, m
@@ -100,10 +103,7 @@ class SphereBox final : public GrainBox<3> {
   double damping_rate_ = 0.0;
   std::vector<double> weights_;
   Eigen::Vector3d multiplier_ = Eigen::Vector3d::Zero();  // in the frame of the box, Pa
-  mutable std::vector<Contact> contacts_;
-  mutable bool listed_ = true;  // the contacts are those of the records
   Imbalance imbalance_;
-  mutable std::vector<double> rotations_, places_;
 };
 
 /// The spheres of an initialised engine as they stand there, with the springs of its contact histories.

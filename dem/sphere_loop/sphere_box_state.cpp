@@ -33,21 +33,18 @@ void SphereBox::restore(const Snapshot<3>& snapshot) {
     std::copy(from.turned.begin(), from.turned.end(), &turned_[k * 4]);
   }
   motion_ = BoxMotion<3>(BoxPath<3>(snapshot.box), std::nullopt, 1.0);
-  // The springs wait in the form of a list for the one that is made next.
-  SphereList waiting;
-  waiting.grains = count();
-  waiting.images.assign(1, SpaceLattice{});
-  for (const Snapshot<3>::Springs& contact : snapshot.contacts)
-    waiting.add(contact.first, contact.second, {contact.image[0], contact.image[1], contact.image[2]});
-  for (int k = 0; k < list_.spring_count; ++k) {
-    waiting.springs[k].assign(snapshot.contacts.size(), 0.0);
-    if (k < springs_)
-      for (std::size_t c = 0; c < snapshot.contacts.size(); ++c)
-        waiting.springs[k][c] = snapshot.values[c * static_cast<std::size_t>(springs_) + k];
+  CarriedSprings carried;
+  carried.contacts.reserve(snapshot.contacts.size());
+  carried.values.reserve(snapshot.contacts.size() * static_cast<std::size_t>(list_.spring_count));
+  for (std::size_t c = 0; c < snapshot.contacts.size(); ++c) {
+    const Snapshot<3>::Springs& contact = snapshot.contacts[c];
+    carried.contacts.push_back(
+        {contact.first, contact.second, {contact.image[0], contact.image[1], contact.image[2]}});
+    for (int k = 0; k < list_.spring_count; ++k)
+      carried.values.push_back(k < springs_ ? snapshot.values[c * static_cast<std::size_t>(springs_) + k]
+                                            : 0.0);
   }
-  waiting.spring_count = list_.spring_count;
-  former_ = std::move(waiting);
-  find_candidates();
+  find_candidates(carried);
 }
 
 void SphereBox::restore_moving(const State& state, const Eigen::Matrix3d& gradient,

@@ -215,13 +215,6 @@ SpaceLattice copy_at(const Eigen::Matrix3d& inverse, const Eigen::Vector3d& plac
   return {copy_of(part.x()), copy_of(part.y()), copy_of(part.z())};
 }
 
-void SphereList::add(int one, int other, const SpaceLattice& lattice) {
-  first.push_back(one);
-  second.push_back(other);
-  image.push_back(image_number(images, lattice));
-  ++count;
-}
-
 void SphereList::find(const double* rows, int how_many, const Eigen::Matrix3d& base, double skin) {
   double largest = 0.0;
   for (int k = 0; k < how_many; ++k) largest = std::max(largest, rows[k * kGrainStride + 3]);
@@ -265,31 +258,43 @@ void SphereList::take(SphereZones zones, const double* rows, int how_many) {
   for (int k = 0; k < spring_count; ++k) springs[k].assign(first.size(), 0.0);
 }
 
-void SphereList::take_springs(const SphereList& other) {
-  // Rows of the pairs of the other list by their first grain.
-  std::vector<int> starts(static_cast<std::size_t>(grains) + 1, 0);
-  const auto has_springs = [&other, this](int c) {
-    if (other.first[c] >= grains) return false;
-    for (int k = 0; k < spring_count; ++k)
-      if (other.springs[k][c] != 0.0) return true;
-    return false;
-  };
+CarriedSprings SphereList::carried() const {
+  CarriedSprings all;
   std::vector<int> stressed;
-  for (int c = 0; c < other.count; ++c)
-    if (has_springs(c)) stressed.push_back(c);
-  for (const int c : stressed) ++starts[other.first[c] + 1];
-  for (int i = 0; i < grains; ++i) starts[i + 1] += starts[i];
-  std::vector<int> rows(stressed.size());
-  std::vector<int> next(starts.begin(), starts.end() - 1);
-  for (const int c : stressed) rows[next[other.first[c]]++] = c;
+  for (int c = 0; c < count; ++c) {
+    if (first[c] >= grains) continue;
+    for (int k = 0; k < spring_count; ++k)
+      if (springs[k][c] != 0.0) {
+        stressed.push_back(c);
+        break;
+      }
+  }
+  all.contacts.reserve(stressed.size());
+  all.values.reserve(stressed.size() * static_cast<std::size_t>(spring_count));
+  for (const int c : stressed) {
+    all.contacts.push_back({first[c], second[c], images[image[c]]});
+    for (int k = 0; k < spring_count; ++k) all.values.push_back(springs[k][c]);
+  }
+  return all;
+}
 
-  // Pairs that do not touch now have parted, and forget.
+void SphereList::take_springs(const CarriedSprings& carried) {
+  // Contacts by their first sphere.
+  std::vector<int> starts(static_cast<std::size_t>(grains) + 1, 0);
+  for (const CarriedSprings::Contact& contact : carried.contacts) ++starts[contact.first + 1];
+  for (int i = 0; i < grains; ++i) starts[i + 1] += starts[i];
+  std::vector<int> rows(carried.contacts.size());
+  std::vector<int> next(starts.begin(), starts.end() - 1);
+  for (std::size_t c = 0; c < rows.size(); ++c) rows[next[carried.contacts[c].first]++] = static_cast<int>(c);
+
   for (int c = 0; c < touching_across; ++c) {
     if (first[c] >= grains || (c >= touching && c < interior)) continue;
     for (int place = starts[first[c]]; place < starts[first[c] + 1]; ++place) {
       const int o = rows[place];
-      if (other.second[o] != second[c] || !(other.images[other.image[o]] == images[image[c]])) continue;
-      for (int k = 0; k < spring_count; ++k) springs[k][c] = other.springs[k][o];
+      const CarriedSprings::Contact& contact = carried.contacts[o];
+      if (contact.second != second[c] || !(contact.image == images[image[c]])) continue;
+      for (int k = 0; k < spring_count; ++k)
+        springs[k][c] = carried.values[static_cast<std::size_t>(o) * spring_count + k];
       break;
     }
   }

@@ -32,6 +32,16 @@ struct SpherePair {
 /// Pairs in the zones of a SpherePass; those that are near in order of their gaps.
 using SphereZones = std::array<std::vector<SpherePair>, 4>;
 
+/// Springs of contacts on their way from one list of pairs to the next, or from a state into a list.
+struct CarriedSprings {
+  struct Contact {
+    int first = 0, second = 0;
+    SpaceLattice image;
+  };
+  std::vector<Contact> contacts;
+  std::vector<double> values;  ///< `spring_count` of each
+};
+
 /// Pairs of spheres of a periodic box whose surfaces are nearer than a skin, each pair once, in the zones of
 /// SpherePass. The order depends on the positions alone.
 struct SphereList {
@@ -55,10 +65,10 @@ struct SphereList {
   /// Takes pairs that are known; springs are zero. Each zone is filled up with dummies.
   /// @param rows of the grains, places and radii (kGrainStride)
   void take(SphereZones zones, const double* rows, int grains);
-  /// Takes over the springs of the pairs that touch and that another list has too.
-  void take_springs(const SphereList& other);
-  /// Appends one more pair, in no zone: for lists that only hand springs over.
-  void add(int first, int second, const SpaceLattice& image);
+  /// The springs of contacts that have any.
+  [[nodiscard]] CarriedSprings carried() const;
+  /// Puts them to the pairs that touch; the others have parted, and forget.
+  void take_springs(const CarriedSprings& carried);
 };
 
 }  // namespace polargrain::dem

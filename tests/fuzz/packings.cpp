@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (data[0] % 8 == 5) {
     write_made_up(file, bytes);
   } else {
-    if (data[0] % 4 == 3) seal(bytes);
+    if (data[0] % 4 == 3) bytes += seal_of(bytes);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
   }
   try {

@@ -82,6 +82,21 @@ TEST(Remarks, CheckTellsThemAndStrictRefuses) {
   EXPECT_EQ(refused.out.find("no faults"), std::string::npos) << refused.out;
 }
 
+// Measured, of discs (app/remarks/sizes.cpp): 0.25 kB of states with the coordinator, and 0.4 kB where they stay with workers.
+TEST(Remarks, TheMemoryOfManyBoxesIsTold) {
+  const Scratch scratch("remarks_memory");
+  put(scratch.path(), kGrains);
+  const std::string check = kProgram + " check case.yaml --set mesh.rectangle.elements='[100, 200]'";
+  const Outcome few = run_in(scratch.path(), kProgram + " check case.yaml");
+  EXPECT_EQ(few.out.find("GB for the boxes"), std::string::npos) << few.out;
+  const Outcome balanced = run_in(scratch.path(), check);
+  EXPECT_NE(balanced.out.find("up to 2 GB for the boxes\n"), std::string::npos)
+      << balanced.out << balanced.errors;
+  const Outcome resident = run_in(scratch.path(), check + " --set 'steps={method: explicit, count: 2}'");
+  EXPECT_NE(resident.out.find("up to 5.2 GB for the boxes\n"), std::string::npos)
+      << resident.out << resident.errors;
+}
+
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;

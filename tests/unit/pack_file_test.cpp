@@ -130,7 +130,7 @@ TEST_F(PackingFileTest, ValuesFromOtherFilesAreRefused) {
   std::ofstream(other, std::ios::binary) << sealed;
   const auto expect_refused = [this](const char* what) {
     std::string bytes = bytes_of(file_);
-    seal(bytes);
+    bytes += seal_of(bytes);
     std::ofstream(file_, std::ios::binary) << bytes;
     try {
       (void)read_packing_file(file_);

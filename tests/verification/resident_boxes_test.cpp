@@ -95,6 +95,28 @@ TEST_P(ResidentBoxesTest, AMoveChangesNoBit) {
             there->read_out(0, 1).front().reply.state->name());
 }
 
+// Boxes share the account of their last pass (BoxRecords): one that is read out makes its own again. Its stress is of the end of
+// the step, an answer's of the last DEM step, half of which is still to come: they differ by what dashpots carry.
+TEST_P(ResidentBoxesTest, AReadOutTellsOfItsOwnBox) {
+  const auto boxes = service_->residents();
+  boxes->move_in(std::vector<ResidentStart>(2));
+  std::vector<ResidentAnswer> answers;
+  for (int step = 0; step < 100; ++step)
+    answers = boxes->go_on(3, std::vector<CellIncrement>{step_of(-1e-5), step_of(4e-5)});
+  const std::vector<ResidentReadOut> read = boxes->read_out(0, 2);
+  const double pressure = -answers[0].stress.trace() / 3.0;
+  EXPECT_GT((answers[0].stress - answers[1].stress).cwiseAbs().maxCoeff(), 0.5 * pressure);
+  for (int box = 0; box < 2; ++box) {
+    const Eigen::Matrix3d& stress = read[box].reply.response.stress;
+    const int known = read[box].reply.response.known == KnownComponents::all ? 3 : 2;
+    EXPECT_LT((stress - answers[box].stress).topLeftCorner(known, known).cwiseAbs().maxCoeff(),
+              1e-3 * pressure)
+        << stress << "\n\n"
+        << answers[box].stress;
+    EXPECT_EQ(read[box].reply.diagnostics.coordination_number, answers[box].coordination_number);
+  }
+}
+
 // A box that is sheared by more than its own length is folded at a read-out, and grains keep their relative velocities.
 TEST_P(ResidentBoxesTest, FoldingMovesNoStress) {
   const auto boxes = service_->residents();
