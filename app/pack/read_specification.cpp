@@ -160,7 +160,7 @@ void read_control(coupler::Section& top, PackingSpecification& specification) {
 }
 
 void require_scene(const PackingSpecification& specification, coupler::Faults& faults) {
-  const coupler::Faults other =
+  const std::vector<Fault> other =
       coupler::scene_faults(specification.script, specification.script_file, specification.dimension);
   faults.insert(faults.end(), other.begin(), other.end());
 }
@@ -306,7 +306,8 @@ PackingSpecification read_settling(const std::filesystem::path& packing, const s
   if (!faults.empty()) throw InputError(faults);
   specification.script_file = file->lexically_normal().string();
   specification.script = coupler::text_of_script(*file);
-  faults = script_faults(specification.script, specification.script_file, scripts);
+  const std::vector<Fault> wrong = script_faults(specification.script, specification.script_file, scripts);
+  faults.insert(faults.end(), wrong.begin(), wrong.end());
   require_scene(specification, faults);
   if (!faults.empty()) throw InputError(faults);
   specification.text =

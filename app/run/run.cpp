@@ -11,6 +11,7 @@
 #include "app/grains/cell_paths.hpp"
 #include "app/remarks/status_of_run.hpp"
 #include "app/run/advice.hpp"
+#include "app/run/defaults_text.hpp"
 #include "app/run/interrupt.hpp"
 #include "app/run/missed_pulses.hpp"
 #include "app/run/proof.hpp"
@@ -74,6 +75,7 @@ class Run {
     log_.set_error_handler([](const std::string&) {});  // a full disk shows in the files that matter
     log_.info("polargrain {}: {} ({})", POLARGRAIN_VERSION, case_.title, case_.file.string());
     for (const std::string& setting : options.settings) log_.info("--set {}", setting);
+    for (const std::string& line : lines_of_defaults(case_.left)) log_.info("{}", line);
     if (case_.needs_workers()) record_.workers = options.workers;
     record_.remarks = std::move(remarks);
     for (const Remark& remark : record_.remarks) log_.warn("remark: {}", line_of(remark));

@@ -109,8 +109,9 @@ struct Case {
   bool output_points = true;            ///< whether there is one of the integration points beside each
   /// Integration points whose grains are written beside each, in the order of points-NNNNN.vtu.
   std::set<std::size_t> output_grains;
-  PatienceLimits patience;   ///< with workers
-  double check_share = 0.0;  ///< of the evaluations: made by two workers, 0 to 1
+  PatienceLimits patience;         ///< with workers
+  std::vector<KeyLeft> left = {};  ///< keys that took their defaults
+  double check_share = 0.0;        ///< of the evaluations: made by two workers, 0 to 1
 
   [[nodiscard]] int dimension() const { return space ? 3 : 2; }
   /// The problem of the dimension that the case has.

@@ -30,6 +30,7 @@ struct Key {
   double below = HUGE_VAL;                  ///< a quantity stays below it
   double most = HUGE_VAL;                   ///< and does not exceed it
   const char* beyond = "";                  ///< the meaning of a value beyond these two
+  const char* also = "";                    ///< a further default: "0.03 in explicit steps"
 };
 
 /// A word of a key, and the value that it stands for.
@@ -51,10 +52,12 @@ class KeyReader {
   void operator()(const Key& key, int& value) const { value = section_.whole_or(key.name, 1, value); }
   template <class Value, std::size_t count>
   void operator()(const Key& key, Value& value, const std::array<Word<Value>, count>& words) const {
-    if (section_.find(key.name) == nullptr) return;
     std::vector<std::string> texts;
     for (const Word<Value>& word : words) texts.emplace_back(word.text);
-    const std::string found = section_.choice_or(key.name, texts, texts.front());
+    const auto left = std::ranges::find(words, value, &Word<Value>::value);
+    if (left == words.end() && section_.find(key.name) == nullptr) return;  // a value that no word has
+    const std::string found =
+        section_.choice_or(key.name, texts, left == words.end() ? texts.front() : left->text);
     for (const Word<Value>& word : words)
       if (found == word.text) value = word.value;
   }
@@ -68,8 +71,6 @@ void read_keys(Section& section, Record& record) {
   describe_keys(record, KeyReader(section));
 }
 
-/// "6e-4", "10 min": a default as the user guide shows it.
-std::string default_text(double value, Dimension dimension);
 /// "| `damping` | 0.12 | against the affine flow ... |"
 std::string row_of_key(const Key& key, const std::string& otherwise);
 
@@ -78,7 +79,7 @@ class KeyWriter {
  public:
   explicit KeyWriter(std::string& rows) : rows_(rows) {}
   void operator()(const Key& key, const double& value) const {
-    rows_ += row_of_key(key, default_text(value, key.dimension));
+    rows_ += row_of_key(key, value_text(value, key.dimension));
   }
   void operator()(const Key& key, const int& value) const { rows_ += row_of_key(key, std::to_string(value)); }
   template <class Value, std::size_t count>

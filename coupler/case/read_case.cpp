@@ -94,7 +94,8 @@ class CaseReader {
                        CaseFiles{parts_.directory, scripts_, dem_steps_of(document_), iterates(document_),
                                  ask_every_of(document_), case_.dimension(), !is_classical(),
                                  case_.spread > 0.0, one_point});
-        const double density = section.quantity_or("density", Dimension::density, Limit::positive, 0.0);
+        const double density =
+            section.quantity_if("density", Dimension::density, Limit::positive).value_or(0.0);
         if (recipe) recipe->given_density = density;
         case_.materials[member.key] = std::move(recipe);
         section.finish();
@@ -486,6 +487,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     return rank(a) < rank(b);
   });
   if (!faults.empty()) throw InputError(faults);
+  result.left = std::move(faults.left);
   return result;
 }
 

@@ -152,7 +152,7 @@ void read_explicit(Section& steps, bool automatic, CaseParts& parts) {
   static_cast<void>(steps.whole_or("ask_every", 1, kAskEvery));
   double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
   steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
-  const int given = steps.whole_or("explicit_steps", 0, 0);
+  const int given = steps.find("explicit_steps") == nullptr ? 0 : steps.whole("explicit_steps", 0);
   result.gives_explicit_steps = given > 0;
   if (given > 0 && steps.find("pace") != nullptr)
     steps.fault("pace", "pace: `explicit_steps` says it already; leave one of them out");

@@ -44,7 +44,7 @@ std::vector<double> times_of_steps(Section& section, double start, double end, i
                                    const CaseParts& parts) {
   std::vector<double> times;
   const double whole = end - start;
-  const double first = section.quantity_or("first", Dimension::duration, Limit::positive, 0.0);
+  const double first = section.quantity_if("first", Dimension::duration, Limit::positive).value_or(0.0);
   double growth = 1.0;
   if (first > 0.0) {
     const auto reached = [&](double ratio) {  // by so many steps, each `ratio` times the one before

@@ -138,8 +138,10 @@ class StructuresReader {
     if (law.tension * law.tan_friction > law.cohesion * (1.0 + 1e-9))
       section.fault("tension",
                     "tension: must not be larger than cohesion / tan(friction), where the friction ends");
-    law.normal_stiffness = section.quantity_or("normal_stiffness", Dimension::bedding, Limit::positive, 0.0);
-    law.shear_stiffness = section.quantity_or("shear_stiffness", Dimension::bedding, Limit::positive, 0.0);
+    law.normal_stiffness =
+        section.quantity_if("normal_stiffness", Dimension::bedding, Limit::positive).value_or(0.0);
+    law.shear_stiffness =
+        section.quantity_if("shear_stiffness", Dimension::bedding, Limit::positive).value_or(0.0);
     if (!is_measured(section))
       law.dilation_until =
           section.quantity_or("dilation_until", Dimension::length, Limit::positive, HUGE_VAL);

@@ -203,7 +203,7 @@ void read_water(const Entry& entry, CaseParts& parts) {
   if (section.find("level") != nullptr)
     water.options.table = section.quantity("level", Dimension::length, Limit::any);
   water.options.pressure_change =
-      section.quantity_or("pressure_change", Dimension::pressure, Limit::positive, 0.0);
+      section.quantity_if("pressure_change", Dimension::pressure, Limit::positive).value_or(0.0);
   if (water.options.pressure_change > 0.0)
     water.options.shortest_step = section.quantity("shortest_step", Dimension::duration, Limit::positive);
   const RegionKeys common = read_region(section, {}, water.options.unit_weight, parts.faults);

@@ -180,6 +180,18 @@ std::string listed(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::string value_text(double value, Dimension dimension) {
+  if (dimension == Dimension::duration)
+    return value >= 60.0 && std::fmod(value, 60.0) == 0.0 ? fmt::format("{:g} min", value / 60.0)
+                                                          : fmt::format("{:g} s", value);
+  const std::string unit(si_unit(dimension));
+  const std::string behind = unit.empty() ? "" : " " + unit;
+  constexpr double kSmall = 0.01;
+  if (value == 0.0 || std::abs(value) >= kSmall) return fmt::format("{:g}{}", value, behind);
+  const double exponent = std::floor(std::log10(std::abs(value)));
+  return fmt::format("{:g}e{:g}{}", value / std::pow(10.0, exponent), exponent, behind);
+}
+
 Section::Section(const Entry& entry, std::string name, Faults& faults)
     : entry_(entry), name_(std::move(name)), faults_(faults) {
   if (entry.kind != Entry::Kind::map) {
@@ -252,8 +264,15 @@ double Section::quantity(const std::string& key, Dimension dimension, Limit limi
 }
 
 double Section::quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise) {
-  const Entry* entry = find(key);
-  return entry == nullptr ? otherwise : number_of(*entry, key, dimension, limit);
+  if (const Entry* const entry = find(key)) return number_of(*entry, key, dimension, limit);
+  if (std::isfinite(otherwise)) leave(key, value_text(otherwise, dimension));
+  return otherwise;
+}
+
+std::optional<double> Section::quantity_if(const std::string& key, Dimension dimension, Limit limit) {
+  const Entry* const entry = find(key);
+  if (entry == nullptr) return {};
+  return number_of(*entry, key, dimension, limit);
 }
 
 std::optional<double> Section::quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
@@ -281,8 +300,13 @@ int Section::whole(const std::string& key, int least) {
 }
 
 int Section::whole_or(const std::string& key, int least, int otherwise) {
-  const Entry* entry = find(key);
-  return entry == nullptr ? otherwise : whole_of(*entry, key, least);
+  if (const Entry* const entry = find(key)) return whole_of(*entry, key, least);
+  leave(key, std::to_string(otherwise));
+  return otherwise;
+}
+
+void Section::leave(const std::string& key, const std::string& value) {
+  faults_.left.push_back({name_, key, value});
 }
 
 const Entry* Section::list(const std::string& key, std::size_t count, const std::string& expected) {
@@ -354,8 +378,9 @@ std::string Section::text(const std::string& key, const std::string& expected) {
 }
 
 std::string Section::text_or(const std::string& key, const std::string& otherwise) {
-  const Entry* entry = find(key);
-  return entry == nullptr ? otherwise : scalar(*entry, key, "a text");
+  if (const Entry* const entry = find(key)) return scalar(*entry, key, "a text");
+  if (!otherwise.empty()) leave(key, otherwise);
+  return otherwise;
 }
 
 std::string Section::choice_of(const Entry& entry, const std::string& key,
@@ -380,8 +405,9 @@ std::string Section::choice(const std::string& key, const std::vector<std::strin
 
 std::string Section::choice_or(const std::string& key, const std::vector<std::string>& words,
                                const std::string& otherwise) {
-  const Entry* entry = find(key);
-  return entry == nullptr ? otherwise : choice_of(*entry, key, words);
+  if (const Entry* const entry = find(key)) return choice_of(*entry, key, words);
+  leave(key, otherwise);
+  return otherwise;
 }
 
 std::vector<std::string> Section::words(const std::string& key, const std::string& expected) {

@@ -10,10 +10,25 @@
 
 namespace polargrain::coupler {
 
-using Faults = std::vector<Fault>;
+/// A key that was left out, and the value in its place.
+struct KeyLeft {
+  std::string section;
+  std::string key;
+  std::string value;  ///< as a case would have it
+};
+
+/// The faults of an input, and the keys that it leaves to their defaults.
+class Faults : public std::vector<Fault> {
+ public:
+  using std::vector<Fault>::vector;
+  std::vector<KeyLeft> left;
+};
 
 /// The condition on a number beyond finite.
 enum class Limit { any, positive, not_negative };
+
+/// "6e-4", "10 min": a value as a case would have it.
+std::string value_text(double value, Dimension dimension);
 
 /// The known word that `word` was most likely meant to be, by its letters or as another name of the same thing; empty when
 /// no word is near.
@@ -38,6 +53,8 @@ class Section {
 
   double quantity(const std::string& key, Dimension dimension, Limit limit);
   double quantity_or(const std::string& key, Dimension dimension, Limit limit, double otherwise);
+  /// A quantity, or nothing where the key is left out and no number stands for that.
+  std::optional<double> quantity_if(const std::string& key, Dimension dimension, Limit limit);
   /// A quantity, or nothing where the value is one of the words.
   std::optional<double> quantity_or_word(const std::string& key, Dimension dimension, Limit limit,
                                          const std::vector<std::string>& words);
@@ -90,6 +107,7 @@ class Section {
   };
 
   void find_forgotten_units();
+  void leave(const std::string& key, const std::string& value);
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
   /// @param words that may stand there instead, for messages

@@ -15,7 +15,8 @@ CellDefinition read_hosted_cell(Section& section, Faults& faults, const CaseFile
   if (packing) {
     definition = read_cell_without_packing("cell", section, faults, files);
     definition.packing = *packing;
-    const Faults other = scene_faults(definition.script, definition.script_file, packing->dimension);
+    const std::vector<Fault> other =
+        scene_faults(definition.script, definition.script_file, packing->dimension);
     faults.insert(faults.end(), other.begin(), other.end());
   } else {
     definition = read_cell_definition("cell", section, faults, files);

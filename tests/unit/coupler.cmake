@@ -9,11 +9,13 @@ polargrain_tests(unit polargrain_coupler
   unit/coupler_case_test.cpp
   unit/continuum_case_test.cpp
   unit/document_kind_test.cpp
+  unit/defaults_test.cpp
   unit/cell_increment_test.cpp
   unit/secant_tangent_test.cpp
   unit/network_moduli_test.cpp)
 polargrain_tests(unit polargrain_app
   unit/calibration_points_test.cpp
+  unit/defaults_text_test.cpp
   unit/envelope_test.cpp)
 polargrain_tests(unit polargrain_common
   unit/coupler_noise_test.cpp)

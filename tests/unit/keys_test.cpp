@@ -88,7 +88,7 @@ TEST(Keys, DefaultsAreShortAndReadBack) {
        {std::tuple{6e-4, Dimension::number, "6e-4"}, std::tuple{0.12, Dimension::number, "0.12"},
         std::tuple{0.0, Dimension::number, "0"}, std::tuple{30.0, Dimension::duration, "30 s"},
         std::tuple{600.0, Dimension::duration, "10 min"}, std::tuple{100.0, Dimension::pressure, "100 Pa"}}) {
-    EXPECT_EQ(default_text(value, dimension), text);
+    EXPECT_EQ(value_text(value, dimension), text);
     EXPECT_EQ(parse_quantity(text, dimension), value);
   }
 }

@@ -6,6 +6,7 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
+#include "coupler/case/models/scheme_section.hpp"
 #include "coupler/cells/automatic_cells.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
@@ -72,17 +73,18 @@ class CellRecipe : public MaterialRecipe {
 std::unique_ptr<MaterialRecipe> read_cell_model(const std::string& material, Section& section, Faults& faults,
                                                 const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
-  CellDefinition definition = read_cell_definition(material, section, faults, files);
+  // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
+  CellControl defaults;
+  if (files.dem_steps > 0 && !files.iterates) defaults.damping = kDampingOfResidents;
+  CellDefinition definition = read_cell_definition(material, section, faults, files, defaults);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   // Of the other schemes: checked, and no more.
   check_informed_parameters(section, files.dimension, faults);
-  read_adaptivity_options(section, faults);
-  // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
+  for_its_faults(faults, [&] { read_adaptivity_options(section, faults); });
   std::optional<Residents> residents;
   if (files.dem_steps > 0)
     residents = {files.dem_steps,
                  section.find("damping") == nullptr ? kDampingOfResidents : definition.control.damping};
-  if (residents && !files.iterates) definition.control.damping = residents->damping;
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat, residents, files);
 }

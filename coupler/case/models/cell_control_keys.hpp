@@ -33,7 +33,8 @@ void describe_keys(CellControl& control, Visit&& visit) {
             .meaning = "against the affine flow, as a fraction of the critical one; less than 1",
             .limit = Limit::not_negative,
             .below = 1.0,
-            .beyond = "grains would creep to where they rest"},
+            .beyond = "grains would creep to where they rest",
+            .also = "0.03 in explicit steps"},
         control.damping);
   visit(
       Key{.name = "tangent",

@@ -104,12 +104,12 @@ void refuse_cosserat_parameters(Section& section) {
 }  // namespace
 
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
-                                    const CaseFiles& files) {
-  CellDefinition definition = read_cell_without_packing(material, section, faults, files);
+                                    const CaseFiles& files, const CellControl& defaults) {
+  CellDefinition definition = read_cell_without_packing(material, section, faults, files, defaults);
   const auto packing = packing_file(section, files.directory);
   if (!packing.empty()) try {
       definition.packing = read_packing(packing);
-      const Faults other =
+      const std::vector<Fault> other =
           scene_faults(definition.script, definition.script_file, definition.packing.dimension);
       faults.insert(faults.end(), other.begin(), other.end());
       if (files.dimension == 3 && definition.packing.dimension != 3)
@@ -121,9 +121,10 @@ CellDefinition read_cell_definition(const std::string& material, Section& sectio
 }
 
 CellDefinition read_cell_without_packing(const std::string& name, Section& section, Faults& faults,
-                                         const CaseFiles& files) {
+                                         const CaseFiles& files, const CellControl& defaults) {
   CellDefinition definition;
   definition.name = name;
+  definition.control = defaults;
   const CellScript script = read_cell_script("script", section, faults, files);
   definition.script_file = script.file;
   definition.script = script.text;

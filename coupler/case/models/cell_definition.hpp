@@ -13,11 +13,11 @@ namespace polargrain::coupler {
 /// Reads the keys common to all models with cells: script, packing and how the cells are loaded. Only fit for use
 /// when no fault has been added.
 CellDefinition read_cell_definition(const std::string& material, Section& section, Faults& faults,
-                                    const CaseFiles& files);
+                                    const CaseFiles& files, const CellControl& defaults = {});
 
 /// The same but the packing, which the section is not asked for.
 CellDefinition read_cell_without_packing(const std::string& name, Section& section, Faults& faults,
-                                         const CaseFiles& files);
+                                         const CaseFiles& files, const CellControl& defaults = {});
 
 /// Reads `rotations` into the definition. @returns whether they are controlled
 bool read_controlled(Section& section, CellDefinition& definition);

@@ -13,7 +13,7 @@ template <int dim>
 void read_cosserat_moduli(Section& section, const CaseFiles& files, fem::ElasticParameters<dim>& parameters) {
   const auto value = [&](const char* key, Dimension dimension) {
     return files.cosserat ? section.quantity(key, dimension, Limit::not_negative)
-                          : section.quantity_or(key, dimension, Limit::not_negative, 0.0);
+                          : section.quantity_if(key, dimension, Limit::not_negative).value_or(0.0);
   };
   parameters.cosserat_shear_modulus = value("Gc", Dimension::pressure);
   parameters.internal_length = value("lc", Dimension::length);

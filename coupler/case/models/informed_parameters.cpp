@@ -66,13 +66,15 @@ template InformedParameters<2> read_informed_parameters<2>(Section&);
 template InformedParameters<3> read_informed_parameters<3>(Section&);
 
 void check_informed_parameters(Section& material, int dimension, Faults& faults) {
-  SchemeSection informed(material, "informed", faults);
-  if (dimension == 3) {
-    read_informed_parameters<3>(informed.keys());
-  } else {
-    read_informed_parameters<2>(informed.keys());
-  }
-  informed.finish();
+  for_its_faults(faults, [&] {
+    SchemeSection informed(material, "informed", faults);
+    if (dimension == 3) {
+      read_informed_parameters<3>(informed.keys());
+    } else {
+      read_informed_parameters<2>(informed.keys());
+    }
+    informed.finish();
+  });
 }
 
 }  // namespace polargrain::coupler

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coupler/case/section.hpp"
+
+namespace polargrain::app {
+
+/// "defaults of steps: cut 6, iterations 30", a line each section: a later version may have others.
+std::vector<std::string> lines_of_defaults(std::span<const coupler::KeyLeft> left);
+
+}  // namespace polargrain::app
