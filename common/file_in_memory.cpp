@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "common/file_in_memory.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -8,27 +9,37 @@ namespace polargrain::hdf5 {
 
 struct FileInMemory::Image {
   void* bytes = nullptr;
+  std::size_t capacity = 0;
+  std::size_t expected = 0;
+  /// Memory of a size that keeps its content; null where the system has no more.
+  void* grown(std::size_t size) {
+    if (size <= capacity) return bytes;
+    const std::size_t wanted = std::max(size, expected);
+    void* const larger = std::realloc(bytes, wanted);
+    if (larger == nullptr) return nullptr;
+    capacity = wanted;
+    return bytes = larger;
+  }
   ~Image() { std::free(bytes); }
 };
 
 namespace {
 
-/// The library takes memory for the image in such steps. To grow by the system's page tables costs nothing.
+/// The library asks for memory in such steps.
 constexpr std::size_t kGrowth = std::size_t{4} << 20;
 
 }  // namespace
 
-FileInMemory::FileInMemory() : image_(std::make_unique<Image>()) {
+FileInMemory::FileInMemory(std::size_t expected) : image_(std::make_unique<Image>()) {
+  image_->expected = expected;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "access");
   check(H5Pset_fapl_core(access, kGrowth, false), "access");
   H5FD_file_image_callbacks_t calls{};
   calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* image) -> void* {
-    return static_cast<Image*>(image)->bytes = std::malloc(size);
+    return static_cast<Image*>(image)->grown(size);
   };
   calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* image) -> void* {
-    void* const grown = std::realloc(static_cast<Image*>(image)->bytes, size);
-    if (grown != nullptr) static_cast<Image*>(image)->bytes = grown;
-    return grown;
+    return static_cast<Image*>(image)->grown(size);
   };
   calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
     return std::memcpy(to, from, size);

@@ -13,8 +13,9 @@ namespace polargrain::hdf5 {
 /// that is full it crashes at the end of the program.
 class FileInMemory {
  public:
+  /// @param expected bytes, for which memory is taken at once: to grow, large memory is copied
   /// @throws RunError as all of hdf5
-  FileInMemory();
+  explicit FileInMemory(std::size_t expected = 0);
   ~FileInMemory();
   FileInMemory(const FileInMemory&) = delete;
   FileInMemory& operator=(const FileInMemory&) = delete;

@@ -29,8 +29,13 @@ std::vector<std::string> joined_names(std::vector<std::string> first, const std:
 
 std::string markdown_table(const std::vector<Column>& columns) {
   std::string table = "| name | unit | meaning |\n|---|---|---|\n";
-  for (const Column& column : columns)
-    table += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
+  for (auto column = columns.begin(); column != columns.end();) {
+    std::string names;
+    const Column& first = *column;
+    for (; column != columns.end() && column->meaning == first.meaning; ++column)
+      names += fmt::format("{}`{}`", names.empty() ? "" : ", ", column->name);
+    table += fmt::format("| {} | {} | {} |\n", names, first.unit, first.meaning);
+  }
   return table;
 }
 

@@ -17,7 +17,7 @@ struct Column {
 /// The names of the columns of one member: its own, or one for each component.
 std::vector<Column> columns_of_member(const FieldNotes& notes, std::size_t components);
 std::vector<std::string> joined_names(std::vector<std::string> first, const std::vector<std::string>& then);
-/// The table of the documentation: a line for each column, `| name | unit | meaning |`.
+/// The table of the documentation: `| name | unit | meaning |`, columns of one meaning in one line.
 std::string markdown_table(const std::vector<Column>& columns);
 
 /// The columns of a record: its results that are numbers, whole numbers and truths, in the order of its

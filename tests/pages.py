@@ -211,7 +211,7 @@ def figures_of_readme():
     return faults + ([] if told in readme else [f"README.md: the tests of paths give {told}"])
 
 
-KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_if|quantity_or_word|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
+KEY = re.compile(r"\.(?:quantity|quantity_or|quantity_if|quantity_or_word|flag|quantities|whole|whole_or|wholes|pairs|text|text_or|choice|choice_or|words|find|require)"
                  r"\(\s*\"([A-Za-z]\w*)\"")
 TOLD_ONCE = re.compile(r"\bKey\{\s*\.name = \"(\w+)\"")  # coupler/case/keys.hpp
 CHOICES = re.compile(r"\.choice(?:_or)?\(\s*\"\w+\",\s*\{([^}]*)\}")

@@ -68,6 +68,11 @@ std::string of_motions(const Scene& scene) {
   return text;
 }
 
+/// Whether boxes stay with their workers, all the time or where iterations fail.
+bool has_residents(const coupler::Case& the_case) {
+  return the_case.is_explicit() || the_case.is_automatic() || the_case.real_time;
+}
+
 /// DEM steps of a box that stays with its worker through all explicit steps; 0 where boxes are asked.
 double dem_steps_of_resident(const Scene& scene) {
   const coupler::Case& the_case = scene.the_case();
@@ -108,10 +113,16 @@ std::string of_real_time(const Scene& scene) {
       dem_steps, seconds(core_seconds));
 }
 
+/// Two digits.
+std::string gigabytes(double bytes) {
+  constexpr double kTen = 1e10;
+  return bytes < kTen ? fmt::format("{:.2g}", 1e-9 * bytes) : fmt::format("{:.0f}", 1e-9 * bytes);
+}
+
 std::string of_memory(const Scene& scene, const Expectation& expected) {
   std::string boxes;
   if (expected.bytes_of_boxes >= kBytesWorthTelling)
-    boxes = fmt::format("up to {:.2g} GB for the boxes", 1e-9 * expected.bytes_of_boxes);
+    boxes = fmt::format("up to {} GB for the boxes", gigabytes(expected.bytes_of_boxes));
   if (scene.dimension() == 2) return boxes.empty() ? boxes : boxes + "\n";
   std::size_t points = 0;
   std::size_t cells = 0;
@@ -120,9 +131,9 @@ std::string of_memory(const Scene& scene, const Expectation& expected) {
     points += scene.points_of(region);
     if (region.cell != nullptr) cells += scene.points_of(region);
   }
-  return fmt::format("{} points, of which {} have boxes of grains; some {:.2g} GB for the elements{}{}\n",
-                     points, cells,
-                     1e-9 * kBytesOfUnknownInSpace * Cosserat<3>::dofs * static_cast<double>(nodes),
+  return fmt::format("{} points, of which {} have boxes of grains; some {} GB for the elements{}{}\n", points,
+                     cells,
+                     gigabytes(kBytesOfUnknownInSpace * Cosserat<3>::dofs * static_cast<double>(nodes)),
                      boxes.empty() ? "" : ", ", boxes);
 }
 
@@ -147,8 +158,10 @@ Expectation expectation_of(const Scene& scene) {
     const double of_step = spheres ? kSecondsOfSphere : kSecondsOfDisc;
     const auto grains = static_cast<double>(region.cell->packing.grains.size());
     sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfStatesOfSphere : kBytesOfStatesOfDisc);
-    if (resident > 0.0 && model != nullptr && model->text == "cell") {
+    const bool stays = model != nullptr && model->text == "cell" && has_residents(scene.the_case());
+    if (stays)
       sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfResidentSphere : kBytesOfResidentDisc);
+    if (stays && resident > 0.0) {
       sum.dem_steps_of_box = resident;
       sum.core_seconds += points * resident * grains * of_step;
       continue;
@@ -181,8 +194,9 @@ std::string sizes_text(const Scene& scene) {
   if (const double spread = scene.the_case().spread; spread > 0.0)
     text += fmt::format("slips are spread over {}\n", metres(spread));
   for (const SceneRegion& region : scene.regions()) text += of_region(scene, region);
-  if (scene.the_case().real_time) return text + of_motions(scene) + of_real_time(scene);
   const Expectation expected = expectation_of(scene);
+  if (scene.the_case().real_time)
+    return text + of_motions(scene) + of_real_time(scene) + of_memory(scene, expected);
   if (const std::string work = expected.work(); !work.empty())
     text += fmt::format("to be expected: some {}{}, {} of one core\n", work,
                         expected.evaluations > 0.0 ? " at most" : "", seconds(expected.core_seconds));

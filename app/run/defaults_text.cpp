@@ -14,7 +14,7 @@ std::vector<std::string> lines_of_defaults(std::span<const coupler::KeyLeft> lef
     const auto place = std::ranges::find(sections, key.section) - sections.begin();
     if (place == std::ssize(sections)) {
       sections.push_back(key.section);
-      lines.push_back(fmt::format("defaults of {}:", key.section));
+      lines.push_back(fmt::format("not given in {}:", key.section));
     }
     std::string& line = lines[static_cast<std::size_t>(place)];
     line += fmt::format("{} {} {}", line.ends_with(':') ? "" : ",", key.key, key.value);

@@ -8,7 +8,7 @@
 
 namespace polargrain::app {
 
-/// "defaults of steps: cut 6, iterations 30", a line each section: a later version may have others.
+/// "not given in steps: cut 6, iterations 30", a line each section: a later version may have other defaults.
 std::vector<std::string> lines_of_defaults(std::span<const coupler::KeyLeft> left);
 
 }  // namespace polargrain::app

@@ -52,7 +52,7 @@ class AnchorsReader {
     const Dimension force =
         dim == 2 && section.find("spacing") == nullptr ? Dimension::force_per_length : Dimension::force;
     const double spacing =
-        dim == 2 ? section.quantity_or("spacing", Dimension::length, Limit::positive, 1.0) : 1.0;
+        dim == 2 ? section.quantity_if("spacing", Dimension::length, Limit::positive).value_or(1.0) : 1.0;
     fem::AnchorSettings<dim> settings;
     settings.name = name;
     const std::size_t faults_before = parts_.faults.size();

@@ -289,8 +289,9 @@ class CaseReader {
   void read_output(const Entry& entry) {
     Section output(entry, "output", faults_);
     case_.output_every = output.whole_or("every", 1, 1);
-    case_.checkpoint_minutes = output.quantity_or("checkpoint_minutes", Dimension::number,
-                                                  Limit::not_negative, case_.checkpoint_minutes);
+    case_.checkpoint_minutes =
+        output.quantity_if("checkpoint_minutes", Dimension::number, Limit::not_negative)
+            .value_or(case_.checkpoint_minutes);
     case_.output_points = output.choice_or("points", {"yes", "no"}, "yes") == "yes";
     if (output.find("grains") != nullptr) read_output_grains(output);
     if (output.find("table") != nullptr) {

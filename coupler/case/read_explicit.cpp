@@ -150,7 +150,7 @@ void read_explicit(Section& steps, bool automatic, CaseParts& parts) {
   if (automatic) result.effort = steps.whole_or("effort", 1, kEffort);
   static_cast<void>(steps.whole_or("dem_steps", kLeastDemSteps, kDemSteps));
   static_cast<void>(steps.whole_or("ask_every", 1, kAskEvery));
-  double pace = steps.quantity_or("pace", Dimension::number, Limit::positive, kPace);
+  double pace = steps.quantity_if("pace", Dimension::number, Limit::positive).value_or(kPace);
   steps.require_below("pace", 0.01, "a boundary would run into its elements like a hammer");
   const int given = steps.find("explicit_steps") == nullptr ? 0 : steps.whole("explicit_steps", 0);
   result.gives_explicit_steps = given > 0;
@@ -161,8 +161,9 @@ void read_explicit(Section& steps, bool automatic, CaseParts& parts) {
   // Who says what error is allowed, and no rate, lets the program find it.
   result.rate_follows = steps.find("error") != nullptr && given == 0 && steps.find("pace") == nullptr;
   if (result.rate_follows) pace *= std::min(1.0, result.explicit_error / fem::ExplicitRate{}.error);
+  if (given == 0 && steps.find("pace") == nullptr) steps.leave("pace", value_text(pace, Dimension::number));
   steps.require_below("error", 1.0, "it is a share of the reactions, 2 % is '2 %' or 0.02");
-  if (steps.choice_or("rest_at_output", {"yes", "no"}, "no") == "yes") result.explicit_options.rest = kRest;
+  if (steps.flag("rest_at_output")) result.explicit_options.rest = kRest;
   const double end = result.plan.empty() ? 0.0 : result.plan.back().amount;
   const double size =
       parts.has_mesh ? result.with_problem([](const auto& problem) { return smallest_element(problem.mesh); })

@@ -326,7 +326,8 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
         return time_table(item, key, dimension, Single::constant, parts);
       });
   give_name(item, before, parts);
-  if (parts.now.number > 0 && item.choice_or("from", {"here", "start"}, "here") == "start") {
+  if (parts.now.number > 0 && item.find("from") != nullptr &&
+      item.choice("from", {"here", "start"}) == "start") {
     parts.result.with_problem([&](auto& problem) {
       for (std::size_t k = before[0]; k < problem.prescribed.size(); ++k)
         problem.prescribed[k].from_here = false;
@@ -334,8 +335,8 @@ void read_boundary_item(const Entry& entry, const std::string& name, CaseParts& 
         problem.prescribed_fields[k].from_here = false;
     });
   }
-  const bool quiet =
-      item.choice_or("quiet", {"true", "false", "yes", "no"}, "false").find_first_of("ty") == 0;
+  const bool quiet = item.find("quiet") != nullptr &&
+                     item.choice("quiet", {"true", "false", "yes", "no"}).find_first_of("ty") == 0;
   if (quiet) {
     parts.check_places(item, "on", places, "a quiet boundary");
     parts.result.with_problem(

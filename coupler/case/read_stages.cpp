@@ -101,7 +101,8 @@ class StagesReader {
     const std::size_t before = parts_.result.plan.size();
     read_way(stage);
     const std::size_t after = parts_.result.plan.size();
-    CaseStage one{stage.text_or("name", name), static_cast<int>(before) + 1, static_cast<int>(after)};
+    CaseStage one{stage.find("name") == nullptr ? name : stage.text("name", "a name"),
+                  static_cast<int>(before) + 1, static_cast<int>(after)};
     check_name(stage, one.name);
     if (builds) {
       ++number_;
@@ -121,7 +122,7 @@ class StagesReader {
       if (const Entry* const items = stage.find("body")) read_body_of_stage(*items, stage.name(), parts_);
     }
     one.number = number_;
-    one.resets_displacements = stage.choice_or("reset_displacements", {"yes", "no"}, "no") == "yes";
+    one.resets_displacements = stage.flag("reset_displacements");
     stage.finish();
     if (are_named_) parts_.result.stages.push_back(one);
   }

@@ -28,6 +28,34 @@ void check_steps_with_water(Section& steps, const std::vector<StepTarget>& plan)
     steps.fault("method", "method: 'automatic' takes no water yet; write newton or explicit");
 }
 
+/// The keys of Newton's method.
+void read_iterations(Section& steps, CaseParts& parts) {
+  fem::SolverOptions& solver = parts.result.solver;
+  solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);
+  solver.most_iterations = steps.whole_or("iterations", 1, solver.most_iterations);
+  // Grains answer with noise. Laws do not, and a loose balance of theirs hides a collapse.
+  solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive,
+                                             parts.result.needs_workers() ? 1e-3 : 1e-5);
+  solver.moment_tolerance =
+      steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
+  for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})
+    steps.require_below(key, 1.0, "the unbalanced forces may not be as large as the loads");
+  for (const char* const key : {"tolerance", "moment_tolerance"})
+    steps.require_at_least(key, 1e-13, "a smaller one cannot be reached, as numbers carry 16 digits");
+  solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
+  // Grains rearrange: without passing their jumps no band is followed far.
+  solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);
+  solver.jump_residual =
+      steps.quantity_or("jump_residual", Dimension::number, Limit::positive, solver.jump_residual);
+  solver.acceleration_depth = steps.whole_or("acceleration", 0, 0);
+  // The cost of a box of grains to follow a strain grows with the strain.
+  solver.largest_strain = steps.quantity_or("largest_strain", Dimension::number, Limit::positive,
+                                            parts.result.needs_workers() ? 0.05 : solver.largest_strain);
+  // A residual that grows within the noise of the grains is no reason to ask all of them again.
+  solver.most_line_search_halvings =
+      steps.whole_or("line_search", 0, parts.result.needs_workers() ? 0 : solver.most_line_search_halvings);
+}
+
 }  // namespace
 
 int step_count(Section& section, std::size_t before) {
@@ -80,7 +108,7 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   const Entry* stages = steps.find("stages");
   if (stages == nullptr) {
     const int count = step_count(steps, 0);
-    const double end = steps.quantity_or("duration", Dimension::duration, Limit::positive, 1.0);
+    const double end = steps.quantity_if("duration", Dimension::duration, Limit::positive).value_or(1.0);
     const bool has_duration = steps.find("duration") != nullptr;
     if (has_duration && !parts.water && steps.find("time") == nullptr)
       steps.fault("duration", "duration: the loading time ends at 1; real time needs 'time: real'");
@@ -106,30 +134,13 @@ void read_steps(const Entry& entry, CaseParts& parts) {
   } else if (!parts.water && steps.choice_or("time", {"loading", "real"}, "loading") == "real") {
     steps.fault("time", "time: real time has explicit steps alone; write 'method: explicit'");
   }
-  fem::SolverOptions& solver = parts.result.solver;
-  solver.most_cuts = steps.whole_or("cut", 0, solver.most_cuts);
-  solver.most_iterations = steps.whole_or("iterations", 1, solver.most_iterations);
-  // Grains answer with noise. Laws do not, and a loose balance of theirs hides a collapse.
-  solver.force_tolerance = steps.quantity_or("tolerance", Dimension::number, Limit::positive,
-                                             parts.result.needs_workers() ? 1e-3 : 1e-5);
-  solver.moment_tolerance =
-      steps.quantity_or("moment_tolerance", Dimension::number, Limit::positive, solver.force_tolerance);
-  for (const char* const key : {"tolerance", "moment_tolerance", "jump_residual"})
-    steps.require_below(key, 1.0, "the unbalanced forces may not be as large as the loads");
-  for (const char* const key : {"tolerance", "moment_tolerance"})
-    steps.require_at_least(key, 1e-13, "a smaller one cannot be reached, as numbers carry 16 digits");
-  solver.noise_factor = steps.quantity_or("noise", Dimension::number, Limit::not_negative, 0.0);
-  // Grains rearrange: without passing their jumps no band is followed far.
-  solver.most_jumps = steps.whole_or("jumps", 0, parts.result.needs_workers() ? 50 : 0);
-  solver.jump_residual =
-      steps.quantity_or("jump_residual", Dimension::number, Limit::positive, solver.jump_residual);
-  solver.acceleration_depth = steps.whole_or("acceleration", 0, 0);
-  // The cost of a box of grains to follow a strain grows with the strain.
-  solver.largest_strain = steps.quantity_or("largest_strain", Dimension::number, Limit::positive,
-                                            parts.result.needs_workers() ? 0.05 : solver.largest_strain);
-  // A residual that grows within the noise of the grains is no reason to ask all of them again.
-  solver.most_line_search_halvings =
-      steps.whole_or("line_search", 0, parts.result.needs_workers() ? 0 : solver.most_line_search_halvings);
+  if (method == "explicit" && !parts.result.real_time) {
+    for_its_faults(parts.faults, [&] { read_iterations(steps, parts); });
+    if (steps.find("largest_strain") == nullptr)
+      steps.leave("largest_strain", value_text(parts.result.solver.largest_strain, Dimension::number));
+  } else {
+    read_iterations(steps, parts);
+  }
   steps.finish();
 }
 

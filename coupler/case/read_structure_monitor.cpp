@@ -16,8 +16,8 @@ bool read_structure_monitor(Section& section, CaseParts& parts, Monitor& monitor
   monitor.kind = Monitor::Kind::structure;
   monitor.structure = section.text(kind, "the name of an " + kind);
   const std::vector<std::string>& values = values_of_structure(kind);
-  monitor.value = values.size() == 1 ? section.choice_or("value", values, values.front())
-                                     : section.choice("value", values);
+  monitor.value = values.size() == 1 && section.find("value") == nullptr ? values.front()
+                                                                         : section.choice("value", values);
   section.finish();
   if (!parts.has_mesh || monitor.structure.empty()) return true;
   const std::vector<std::string> known =

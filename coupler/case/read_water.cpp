@@ -101,7 +101,10 @@ void read_regions(const Entry& entry, const RegionKeys& common, WaterOfCase& wat
       continue;
     }
     Section own(member.value, fmt::format("water: region '{}'", member.key), parts.faults);
-    const RegionKeys keys = read_region(own, common, water.options.unit_weight, parts.faults);
+    RegionKeys keys;
+    for_its_faults(parts.faults, [&] {  // left out, they are as of the water
+      keys = read_region(own, common, water.options.unit_weight, parts.faults);
+    });
     check_region(keys, own);
     own.finish();
     water.regions[member.key] = keys.water;

@@ -377,6 +377,11 @@ std::string Section::text(const std::string& key, const std::string& expected) {
   return entry == nullptr ? std::string() : scalar(*entry, key, expected);
 }
 
+bool Section::flag(const std::string& key) {
+  const Entry* const entry = find(key);
+  return entry != nullptr && choice_of(*entry, key, {"yes", "no"}) == "yes";
+}
+
 std::string Section::text_or(const std::string& key, const std::string& otherwise) {
   if (const Entry* const entry = find(key)) return scalar(*entry, key, "a text");
   if (!otherwise.empty()) leave(key, otherwise);

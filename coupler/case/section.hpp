@@ -17,7 +17,7 @@ struct KeyLeft {
   std::string value;  ///< as a case would have it
 };
 
-/// The faults of an input, and the keys that it leaves to their defaults.
+/// All that reading an input finds: its faults, and the keys that it leaves to their defaults.
 class Faults : public std::vector<Fault> {
  public:
   using std::vector<Fault>::vector;
@@ -29,6 +29,14 @@ enum class Limit { any, positive, not_negative };
 
 /// "6e-4", "10 min": a value as a case would have it.
 std::string value_text(double value, Dimension dimension);
+
+/// Reads keys that are not in use for their faults alone.
+template <class Read>
+void for_its_faults(Faults& faults, const Read& read) {
+  const auto in_use = static_cast<std::ptrdiff_t>(faults.left.size());
+  read();
+  faults.left.erase(faults.left.begin() + in_use, faults.left.end());
+}
 
 /// The known word that `word` was most likely meant to be, by its letters or as another name of the same thing; empty when
 /// no word is near.
@@ -75,6 +83,12 @@ class Section {
   /// A list of words; a single word counts as a list of one.
   std::vector<std::string> words(const std::string& key, const std::string& expected);
 
+  /// Notes a key that was left out, and the value that the case takes for it. The getters do so where they are given one; flags
+  /// are not noted.
+  void leave(const std::string& key, const std::string& value);
+  /// yes or no; no where it is left out.
+  bool flag(const std::string& key);
+
   /// Puts a fault at the place of a key (of the whole section when the key is not there).
   void fault(const std::string& key, const std::string& message);
 
@@ -107,7 +121,6 @@ class Section {
   };
 
   void find_forgotten_units();
-  void leave(const std::string& key, const std::string& value);
   std::string scalar(const Entry& entry, const std::string& key, const std::string& expected);
   const Entry* list(const std::string& key, std::size_t count, const std::string& expected);
   /// @param words that may stand there instead, for messages

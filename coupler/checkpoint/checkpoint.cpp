@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <set>
 #include <system_error>
 
 #include "common/file_in_memory.hpp"
@@ -161,6 +162,20 @@ void read_arrays(hid_t file, MemoryArchive& archive) {
   }
 }
 
+/// Some more than the content has.
+std::size_t bytes_of(const Checkpoint& checkpoint) {
+  std::size_t bytes = checkpoint.history.size() + checkpoint.costs.size();
+  for (const auto& [name, values] : checkpoint.state.all_doubles()) bytes += values.size() * sizeof(double);
+  for (const auto& [name, values] : checkpoint.state.all_integers())
+    bytes += values.size() * sizeof(std::int64_t);
+  std::set<const State*> counted;
+  for (const auto& [name, states] : checkpoint.state.all_states())
+    for (const StatePointer& state : states)
+      if (state && counted.insert(state.get()).second) bytes += state->bytes().size();
+  constexpr std::size_t kOfNames = std::size_t{1} << 20;
+  return bytes + kOfNames;
+}
+
 void write_content(hid_t out, const Checkpoint& checkpoint) {
   write_array(out, "version", std::array<std::int64_t, 1>{kVersion});
   write_array(out, "program", checkpoint.program);
@@ -177,7 +192,7 @@ void write_content(hid_t out, const Checkpoint& checkpoint) {
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint,
                       Durability durability) try {
   hdf5::silence();
-  hdf5::FileInMemory made;
+  hdf5::FileInMemory made(bytes_of(checkpoint));
   write_content(made.file(), checkpoint);
   const std::string_view bytes = made.close();
   const std::string mark = seal_of(bytes);

@@ -19,8 +19,8 @@ struct BoxRecords {
 
   /// A pass begins that takes down so many values. @returns where to
   double* begin(const void* box, std::size_t count) {
-    teller = box;
     if (values.size() < count) values.resize(count);
+    teller = box;
     are_listed = false;
     return values.data();
   }

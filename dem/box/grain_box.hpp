@@ -26,6 +26,9 @@ template <int dim>
 class GrainBox {
  public:
   using Loading = typename BoxMotion<dim>::Loading;
+  GrainBox() = default;
+  GrainBox(const GrainBox&) = delete;  // boxes may share their records
+  GrainBox& operator=(const GrainBox&) = delete;
   virtual ~GrainBox() = default;
 
   /// Replaces the state. @throws RunError when it does not fit these grains and models

@@ -131,6 +131,8 @@ class Newton {
   /// @throws RunError where a contribution needs to know how long a step takes
   void refuse_unknown_time() const;
 
+ protected:
+  // Of both ways of solving: iterations here, explicit steps in Solver<dim>::Implementation.
   Problem<dim> problem;
   SolverOptions options;
   Discretisation<dim> discretisation;

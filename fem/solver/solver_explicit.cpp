@@ -25,14 +25,14 @@ Eigen::VectorXd masses_of_unknowns(const Constraints<dim>& constraints, const Ei
   return masses;
 }
 
-/// A row of explicit steps under way.
-template <int dim>
+/// A row of explicit steps under way. @tparam Inside the inside of a Solver
+template <int dim, class Inside>
 class ExplicitRow {
  public:
   /// @param solver, options, quiet, report must outlive this object @param quiet null: no quiet boundary
   /// @param seconds of a step; without real time 1, where elements have the shape for which the masses were chosen
-  ExplicitRow(Newton<dim>& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet,
-              double seconds, StepReport& report)
+  ExplicitRow(Inside& solver, const ExplicitOptions& options, const QuietBoundary<dim>* quiet, double seconds,
+              StepReport& report)
       : solver_(solver),
         options_(options),
         quiet_(quiet),
@@ -173,7 +173,7 @@ class ExplicitRow {
            seconds_;
   }
 
-  Newton<dim>& solver_;
+  Inside& solver_;
   const ExplicitOptions& options_;
   const QuietBoundary<dim>* quiet_;
   double seconds_;
@@ -283,7 +283,7 @@ StepReport Solver<dim>::advance_explicit(double time, int steps, const ExplicitO
   const ExplicitPace pace(state.time, time, shorter(steps), ramp, self.steps_since_rest, options.speed_before,
                           wave);
   RowOfForces<dim> forces(self.constraints, pace.steps(), pace.last_times(2 * wave));
-  ExplicitRow<dim> row(self, options, nullptr, share, report);
+  ExplicitRow<dim, Implementation> row(self, options, nullptr, share, report);
   const auto stopped = [&] {
     return self.stopped(report,
                         fmt::format("explicit step {} of {}", report.explicit_steps + 1, pace.steps()));
@@ -376,7 +376,7 @@ StepReport Solver<dim>::advance_real_time(double time, const ExplicitOptions& op
   const bool releases = self.start_from_balance(options);
   const ExplicitPace pace(start, time, std::max(1, steps), 0, 0);
   RowOfForces<dim> forces(self.constraints, pace.steps(), {});
-  ExplicitRow<dim> row(self, options, &*self.quiet, seconds, report);
+  ExplicitRow<dim, Implementation> row(self, options, &*self.quiet, seconds, report);
   const bool went = row.follow(pace, releases, [&](int step) {
     self.tell_quarters(step, pace.steps(), {});
     forces.add(self.last_supplied());

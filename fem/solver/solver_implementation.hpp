@@ -15,18 +15,25 @@ namespace polargrain::fem {
 template <int dim>
 struct Solver<dim>::Implementation : Newton<dim> {
   using Newton<dim>::Newton;
-  using Newton<dim>::attempt;
-  using Newton<dim>::best_residual;
   using Newton<dim>::constraints;
-  using Newton<dim>::evaluate_initial_state;
-  using Newton<dim>::begin_at_rest;
-  using Newton<dim>::excess;
-  using Newton<dim>::initial_residual;
+  using Newton<dim>::contributions;
+  using Newton<dim>::discretisation;
+  using Newton<dim>::loads;
+  using Newton<dim>::materials;
   using Newton<dim>::observer;
   using Newton<dim>::options;
+  using Newton<dim>::problem;
+  using Newton<dim>::reference_length;
+  using Newton<dim>::state;
+  // Found without this->, as the parts above.
+  using Newton<dim>::attempt;
+  using Newton<dim>::begin_at_rest;
+  using Newton<dim>::best_residual;
+  using Newton<dim>::evaluate_initial_state;
+  using Newton<dim>::excess;
+  using Newton<dim>::initial_residual;
   using Newton<dim>::pass_jump;
   using Newton<dim>::revert;
-  using Newton<dim>::state;
   using Newton<dim>::trouble;
   using Newton<dim>::withhold_imbalance;
 

@@ -95,6 +95,8 @@ TEST(Remarks, TheMemoryOfManyBoxesIsTold) {
   const Outcome resident = run_in(scratch.path(), check + " --set 'steps={method: explicit, count: 2}'");
   EXPECT_NE(resident.out.find("up to 5.2 GB for the boxes\n"), std::string::npos)
       << resident.out << resident.errors;
+  const Outcome both = run_in(scratch.path(), check + " --set 'steps={method: automatic, count: 2}'");
+  EXPECT_NE(both.out.find("up to 5.2 GB for the boxes\n"), std::string::npos) << both.out << both.errors;
 }
 
 std::size_t count_of(const std::string& text, const std::string& part) {

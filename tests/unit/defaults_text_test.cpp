@@ -9,8 +9,8 @@ namespace {
 TEST(DefaultsText, HasALineForEachSectionInTheOrderOfTheirFirstKeys) {
   const std::vector<coupler::KeyLeft> left = {
       {"steps", "cut", "6"}, {"output", "points", "yes"}, {"steps", "iterations", "30"}};
-  EXPECT_EQ(lines_of_defaults(left), (std::vector<std::string>{"defaults of steps: cut 6, iterations 30",
-                                                               "defaults of output: points yes"}));
+  EXPECT_EQ(lines_of_defaults(left), (std::vector<std::string>{"not given in steps: cut 6, iterations 30",
+                                                               "not given in output: points yes"}));
   EXPECT_TRUE(lines_of_defaults({}).empty());
 }
 

@@ -74,17 +74,21 @@ std::unique_ptr<MaterialRecipe> read_cell_model(const std::string& material, Sec
                                                 const CaseFiles& files) {
   const std::size_t faults_before = faults.size();
   // Boxes that never rest are dragged along by their damping, and nothing else brings them to rest.
+  const bool moves = files.dem_steps > 0;
   CellControl defaults;
-  if (files.dem_steps > 0 && !files.iterates) defaults.damping = kDampingOfResidents;
+  if (moves && !files.iterates) defaults.damping = kDampingOfResidents;
   CellDefinition definition = read_cell_definition(material, section, faults, files, defaults);
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   // Of the other schemes: checked, and no more.
   check_informed_parameters(section, files.dimension, faults);
   for_its_faults(faults, [&] { read_adaptivity_options(section, faults); });
   std::optional<Residents> residents;
-  if (files.dem_steps > 0)
-    residents = {files.dem_steps,
-                 section.find("damping") == nullptr ? kDampingOfResidents : definition.control.damping};
+  if (moves) {
+    const bool is_given = section.find("damping") != nullptr;
+    residents = {files.dem_steps, is_given ? definition.control.damping : kDampingOfResidents};
+    if (!is_given && files.iterates)
+      section.leave("damping in explicit steps", value_text(kDampingOfResidents, Dimension::number));
+  }
   if (faults.size() != faults_before) return nullptr;
   return std::make_unique<CellRecipe>(std::move(definition), cosserat, residents, files);
 }

@@ -34,7 +34,7 @@ void describe_keys(CellControl& control, Visit&& visit) {
             .limit = Limit::not_negative,
             .below = 1.0,
             .beyond = "grains would creep to where they rest",
-            .also = "0.03 in explicit steps"},
+            .also = "0.03 with `cell` in explicit steps"},
         control.damping);
   visit(
       Key{.name = "tangent",

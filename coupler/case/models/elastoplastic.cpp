@@ -104,7 +104,8 @@ std::unique_ptr<MaterialRecipe> read_law(Section& section, Faults& faults, const
   const std::size_t faults_before = faults.size();
   fem::ElastoplasticParameters<dim> parameters;
   read_elastic_parameters(section, files, parameters.elastic);
-  const double shear = section.quantity_or("hardening_shear", Dimension::number, Limit::positive, 0.1);
+  const double shear =
+      section.quantity_if("hardening_shear", Dimension::number, Limit::positive).value_or(0.1);
   const fem::MohrCoulombHardening mohr_coulomb{
       strength(section, "friction_angle", Dimension::angle, Limit::not_negative, kDegrees, shear),
       strength(section, "dilatancy_angle", Dimension::angle, Limit::any, kDegrees, shear),

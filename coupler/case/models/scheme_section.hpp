@@ -23,12 +23,4 @@ class SchemeSection {
   std::string scheme_;
 };
 
-/// Reads the map of a scheme that is not in use for its faults alone.
-template <class Read>
-void for_its_faults(Faults& faults, Read read) {
-  const auto in_use = static_cast<std::ptrdiff_t>(faults.left.size());
-  read();
-  faults.left.erase(faults.left.begin() + in_use, faults.left.end());
-}
-
 }  // namespace polargrain::coupler
