@@ -4,6 +4,7 @@
 
     python3 column_spread.py -o RESULTS [--spread 5.4...] [--elements 10] [--columns 5] [--rolling 0.2] [--friction 0.5463] [--pressure 100]
                              [--radius 3 7] [--packed-with 0] [--mirrors] [--height 20] [--explicit PACE...] [--spheres]
+                             [--rotations none|free|controlled...]
                              [--layers FOLDER] [--programs FOLDER...]
 
 A column has tied sides and stands under constant normal stress; each tenth of its height has a packing of its own, by default those of
@@ -44,8 +45,8 @@ materials:
 regions: {{{assigned}}}
 boundary:
   - {{on: left, tie: right}}
-  - {{on: bottom, fix: [u1, u2]}}
-  - {{on: top, move: {{u1: [[0, 0], [1, {first:g} m], [2, {last:g} m]]}}, pressure: {pressure:g} Pa}}
+  - {{on: bottom, fix: [u1, u2{held}]}}
+{top}  - {{on: top, move: {{u1: [[0, 0], [1, {first:g} m], [2, {last:g} m]]}}, pressure: {pressure:g} Pa}}
 steps:
   stages:
     - {{until: 1, count: 12}}
@@ -58,16 +59,18 @@ monitors:
 """
 
 
-def case(spread, pace, options, packings, script):
+def case(spread, pace, rotations, options, packings, script):
+    kind, of_cells = {"none": ("cauchy", ""), "free": ("cosserat", ", lc: from packing"), "controlled": ("cosserat", ", rotations: controlled")}[rotations]
     hold = "" if options.mirrors else ", hold: [bottom, top]"
     height, elements = options.height * options.diameter, options.elements
     size, region = height / elements, height / REGIONS
     return CASE.format(
-        continuum=f"{{kind: cauchy, spread: {spread * options.diameter:g} m{hold}}}" if spread else "cauchy", elements=elements, size=size,
+        continuum=f"{{kind: {kind}, spread: {spread * options.diameter:g} m{hold}}}" if spread else kind, elements=elements,
+        held="" if rotations == "none" else ", w", top="" if rotations == "none" else "  - {on: top, fix: [w]}\n", size=size,
         method=f"  method: explicit\n  pace: {pace:g}" if pace else ITERATIONS, height=height, pressure=options.pressure, first=0.4 * options.diameter, last=5.0 * options.diameter,
         regions=", ".join(f"r{k}: [0, {k * region:.6g} m, {size:.8g} m, {(k + 1) * region:.6g} m]" for k in range(REGIONS)),
         levels=", ".join(f"l{k}: {k * size:.8g} m" for k in range(1, elements)),
-        materials="\n".join(f"  s{k}: {{model: cell, script: {script}, packing: {packing}}}" for k, packing in enumerate(packings)),
+        materials="\n".join(f"  s{k}: {{model: cell, script: {script}, packing: {packing}{of_cells}}}" for k, packing in enumerate(packings)),
         assigned=", ".join(f"r{k}: s{k}" for k in range(REGIONS)),
         monitors="\n".join(f"  l{k}: {{on: l{k}, displacement: u1}}" for k in range(1, elements)))
 
@@ -98,13 +101,13 @@ def script_of(place, options):
     return file.name
 
 
-def title_of(spread, pace):
-    return f"{spread:g}" + (f", explicit {pace:g}" if pace else "")
+def title_of(spread, pace, rotations):
+    return f"{spread:g}" + (f", explicit {pace:g}" if pace else "") + (f", rotations {rotations}" if rotations != "none" else "")
 
 
-def name_of(number, spread, pace, options):
+def name_of(number, spread, pace, rotations, options):
     return (f"column{number}-{options.elements}-{spread:g}" + ("-mirrors" if options.mirrors else "") + (f"-explicit{pace:g}" if pace else "")
-            + (f"-high{options.height:g}" if options.height != HEIGHT else ""))
+            + (f"-high{options.height:g}" if options.height != HEIGHT else "") + (f"-{rotations}" if rotations != "none" else ""))
 
 
 def differences(title, columns, layers):
@@ -128,6 +131,7 @@ def main():
     arguments.add_argument("--height", type=float, default=HEIGHT, help="d")
     arguments.add_argument("--explicit", type=float, nargs="+", default=[0.0], metavar="PACE", help="of explicit steps; 0: iterations")
     arguments.add_argument("--spheres", action="store_true", help="200 in a cell, without rolling resistance; iterations do not balance them")
+    arguments.add_argument("--rotations", nargs="+", choices=["none", "free", "controlled"], default=["none"], help="micro-rotations of the continuum and its cells")
     arguments.add_argument("--layers", type=pathlib.Path)
     arguments.add_argument("--programs", type=pathlib.Path, nargs="+", metavar="FOLDER")
     options = arguments.parse_args()
@@ -141,7 +145,7 @@ def main():
     script = script_of(place, options)
     if options.packed_with:  # such a packing keeps springs, which belong to its script
         packing_of_all["script"] = str(place / script)
-    kinds = [(spread, pace) for spread in options.spread for pace in options.explicit]
+    kinds = [(spread, pace, rotations) for spread in options.spread for pace in options.explicit for rotations in options.rotations]
     figures, costs = {kind: [] for kind in kinds}, {kind: [] for kind in kinds}
     for number in range(options.columns):
         seeds = [100 + 20 * number + 2 * k for k in range(REGIONS)]
