@@ -229,7 +229,7 @@ double read_pressure(Section& section, const std::string& key, Limit limit) {
 element::Stage read_stage(Section& section, element::Room room, bool extended) {
   element::Stage stage =
       section.find("test") != nullptr ? read_named(section, room) : read_components(section, room, extended);
-  stage.zero = section.choice_or("zero", {"yes", "no"}, "no") == "yes";
+  stage.zero = section.flag("zero");
   return stage;
 }
 

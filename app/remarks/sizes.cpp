@@ -68,11 +68,6 @@ std::string of_motions(const Scene& scene) {
   return text;
 }
 
-/// Whether boxes stay with their workers, all the time or where iterations fail.
-bool has_residents(const coupler::Case& the_case) {
-  return the_case.is_explicit() || the_case.is_automatic() || the_case.real_time;
-}
-
 /// DEM steps of a box that stays with its worker through all explicit steps; 0 where boxes are asked.
 double dem_steps_of_resident(const Scene& scene) {
   const coupler::Case& the_case = scene.the_case();
@@ -158,7 +153,7 @@ Expectation expectation_of(const Scene& scene) {
     const double of_step = spheres ? kSecondsOfSphere : kSecondsOfDisc;
     const auto grains = static_cast<double>(region.cell->packing.grains.size());
     sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfStatesOfSphere : kBytesOfStatesOfDisc);
-    const bool stays = model != nullptr && model->text == "cell" && has_residents(scene.the_case());
+    const bool stays = model != nullptr && model->text == "cell" && scene.the_case().is_explicit();
     if (stays)
       sum.bytes_of_boxes += points * grains * (spheres ? kBytesOfResidentSphere : kBytesOfResidentDisc);
     if (stays && resident > 0.0) {

@@ -88,14 +88,8 @@ StatePointer SphereBox::save() {
     std::copy_n(&turned_[k * 4], 3, to.turned.data());
   }
   std::vector<int> order;  // candidates with springs, by their first sphere
-  for (int c = 0; c < list_.count; ++c) {
-    if (list_.first[c] >= count()) continue;
-    for (int k = 0; k < springs_; ++k)
-      if (list_.springs[k][c] != 0.0) {
-        order.push_back(c);
-        break;
-      }
-  }
+  for (int c = 0; c < list_.count; ++c)
+    if (list_.is_stressed(c, springs_)) order.push_back(c);
   std::stable_sort(order.begin(), order.end(),
                    [this](int a, int b) { return list_.first[a] < list_.first[b]; });
   for (const int c : order) {

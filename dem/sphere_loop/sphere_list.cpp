@@ -258,20 +258,19 @@ void SphereList::take(SphereZones zones, const double* rows, int how_many) {
   for (int k = 0; k < spring_count; ++k) springs[k].assign(first.size(), 0.0);
 }
 
+bool SphereList::is_stressed(int candidate, int how_many) const {
+  if (first[candidate] >= grains) return false;
+  for (int k = 0; k < how_many; ++k)
+    if (springs[k][candidate] != 0.0) return true;
+  return false;
+}
+
 CarriedSprings SphereList::carried() const {
   CarriedSprings all;
-  std::vector<int> stressed;
+  all.contacts.reserve(static_cast<std::size_t>(count));
+  all.values.reserve(static_cast<std::size_t>(count) * spring_count);
   for (int c = 0; c < count; ++c) {
-    if (first[c] >= grains) continue;
-    for (int k = 0; k < spring_count; ++k)
-      if (springs[k][c] != 0.0) {
-        stressed.push_back(c);
-        break;
-      }
-  }
-  all.contacts.reserve(stressed.size());
-  all.values.reserve(stressed.size() * static_cast<std::size_t>(spring_count));
-  for (const int c : stressed) {
+    if (!is_stressed(c, spring_count)) continue;
     all.contacts.push_back({first[c], second[c], images[image[c]]});
     for (int k = 0; k < spring_count; ++k) all.values.push_back(springs[k][c]);
   }

@@ -65,6 +65,8 @@ struct SphereList {
   /// Takes pairs that are known; springs are zero. Each zone is filled up with dummies.
   /// @param rows of the grains, places and radii (kGrainStride)
   void take(SphereZones zones, const double* rows, int grains);
+  /// Whether one of the first `how_many` springs of a candidate is not zero. Dummies do not count.
+  [[nodiscard]] bool is_stressed(int candidate, int how_many) const;
   /// The springs of contacts that have any.
   [[nodiscard]] CarriedSprings carried() const;
   /// Puts them to the pairs that touch; the others have parted, and forget.

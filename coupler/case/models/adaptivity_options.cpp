@@ -23,4 +23,8 @@ AdaptivityOptions read_adaptivity_options(Section& material, Faults& faults) {
   return options;
 }
 
+void check_adaptivity_options(Section& material, Faults& faults) {
+  for_its_faults(faults, [&] { read_adaptivity_options(material, faults); });
+}
+
 }  // namespace polargrain::coupler

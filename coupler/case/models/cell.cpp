@@ -6,7 +6,6 @@
 #include "coupler/case/models/adaptivity_options.hpp"
 #include "coupler/case/models/cell_definition.hpp"
 #include "coupler/case/models/informed_parameters.hpp"
-#include "coupler/case/models/scheme_section.hpp"
 #include "coupler/cells/automatic_cells.hpp"
 #include "coupler/cells/cell_material.hpp"
 #include "coupler/cells/resident_material.hpp"
@@ -81,7 +80,7 @@ std::unique_ptr<MaterialRecipe> read_cell_model(const std::string& material, Sec
   const std::optional<CosseratChoice> cosserat = read_rotations(section, definition, files);
   // Of the other schemes: checked, and no more.
   check_informed_parameters(section, files.dimension, faults);
-  for_its_faults(faults, [&] { read_adaptivity_options(section, faults); });
+  check_adaptivity_options(section, faults);
   std::optional<Residents> residents;
   if (moves) {
     const bool is_given = section.find("damping") != nullptr;

@@ -103,8 +103,7 @@ std::unique_ptr<MaterialRecipe> read_for(const std::string& material, Section& s
                     "the two out",
                     section.find("lp") != nullptr ? "lp" : "the lp that comes with 'lc: measured'"));
   }
-  for_its_faults(
-      faults, [&] { read_adaptivity_options(section, faults); });  // of another scheme: checked, and no more
+  check_adaptivity_options(section, faults);  // of another scheme: checked, and no more
   refuse_asking_each_step(informed.keys(), parameters, files);
   informed.finish();
   if (faults.size() != faults_before) return nullptr;
